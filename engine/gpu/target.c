@@ -119,6 +119,7 @@ static void fill_like(const virga_target *target, virga_target_def *like)
     like->reactive_attachment = def->reactive_attachment;
     like->samples = def->samples;
     like->depth_attached = def->depth_attached;
+    like->depth_written = def->depth_written;
     like->reversed_depth = def->reversed_depth;
     if (def->kind == VIRGA_TARGET_DYNAMIC) {
         memcpy(like->color_formats, def->color_formats, sizeof like->color_formats);
@@ -242,6 +243,7 @@ virga_result virga_target_pipeline(const virga_target *target, virga_graphics_de
     def.reactive_attachment = def.outputs & VIRGA_OUTPUTS_REACTIVE ? into->reactive_attachment : 0;
     def.samples = into->samples;
     def.depth_test = def.depth_test && into->depth_attached;
+    def.depth_write = def.depth_test && into->depth_written;
     def.reversed_depth = into->reversed_depth;
     if (into->kind == VIRGA_TARGET_DYNAMIC) {
         memcpy(def.color_formats, into->color_formats, sizeof def.color_formats);

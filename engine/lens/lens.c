@@ -97,34 +97,38 @@ static const virga_effect_image images[] = {
     BLANK_COLOR("lens.blank_color", blank_color),
 };
 
+#define SEEN (COMPUTE | FRAGMENT)
+
 /* The same bindings as in shaders/lens, where each file declares those it uses. */
 static const virga_binding_kind bindings[LENS_BINDINGS] = {
-    {DYNAMIC, COMPUTE | FRAGMENT, VIRGA_SOURCE_RING, AT(view_ring), sizeof(virga_lens_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                      /* 1 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                                    /* 2 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                                      /* 3 */
-    [LENS_BIND_DEPTH] = {SAMPLED, COMPUTE},                                                  /* 4 */
-    [LENS_BIND_COLOR] = {SAMPLED, COMPUTE},                                                  /* 5 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                                       /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                                    /* 7 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                                     /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                                      /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                                    /* 10 */
-    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                                           /* 11 */
-    [LENS_BIND_FIELDS] = {SAMPLED, COMPUTE},                                                 /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                                       /* 13 */
-    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture)},                                    /* 14 */
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE}, /* 15 colors of layers */
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE},
-    {SAMPLED, COMPUTE}, /* 19 depths of layers */
+    {DYNAMIC, SEEN, VIRGA_SOURCE_RING, AT(view_ring), sizeof(virga_lens_gpu)}, /* 0 */
+    {STORAGE, SEEN, VIRGA_SOURCE_BUFFER, AT(state)},                           /* 1 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                      /* 2 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                        /* 3 */
+    [LENS_BIND_DEPTH] = {SAMPLED, SEEN},                                       /* 4 */
+    [LENS_BIND_COLOR] = {SAMPLED, SEEN},                                       /* 5 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                         /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                      /* 7 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                       /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                        /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                      /* 10 */
+    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                             /* 11 */
+    [LENS_BIND_FIELDS] = {SAMPLED, SEEN},                                      /* 12 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                         /* 13 */
+    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture)},                      /* 14 */
+    {SAMPLED, SEEN},                                                           /* 15 colors of layers */
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN}, /* 20 depths of layers */
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
+    {SAMPLED, SEEN},
 };
 
-static const virga_effect_layout layouts[] = {{AT(bindings), bindings, LENS_BINDINGS, 1, 0}};
+static const virga_effect_layout layouts[] = {{AT(bindings), bindings, LENS_BINDINGS, 1, sizeof(uint32_t)}};
 
 static const virga_effect_pass passes[] = {
     PASS(focus),
@@ -132,7 +136,7 @@ static const virga_effect_pass passes[] = {
     PASS(sample),
     PASS(tile),
     PASS(reach),
-    PASS(gather),
+    PASS(gather, .forms = 2),
     PASS(layer, .forms = VIRGA_LENS_LAYERS),
     PASS(combine),
     PASS(paper),
@@ -198,7 +202,7 @@ const virga_effect_type lens_type = {
     .passes = passes,
     .pass_count = VIRGA_ROWS(passes),
     .draws = lens_draws,
-    .draw_count = 1,
+    .draw_count = LENS_DRAWS,
     .readback_name = "lens.readback",
     .readback_bytes = sizeof(virga_lens_state_gpu),
     .fit_device = fit_device,

@@ -20,6 +20,10 @@ static virga_result check_layer(const virga_log *log, const virga_lens_layer *la
 {
     if (!layer->color.view || layer->color.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
         return virga_wrong_argument(log, "layers[%u].color: expected an image view, and its layout", index);
+    if (layer->on_scene > 1)
+        return virga_wrong_argument(log, "layers[%u].on_scene: expected 0 or 1, got %u", index, layer->on_scene);
+    if (layer->on_scene)
+        return VIRGA_OK;
     if (layer->depth.view && layer->depth.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
         return virga_wrong_argument(log, "layers[%u].depth.before.layout: expected the layout while reading", index);
     if (!layer->depth.view && !(layer->depth_m >= 0.001f && layer->depth_m <= 1e6f))
@@ -56,9 +60,14 @@ static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const v
     if (layer_count > VIRGA_LENS_MAX_LAYERS || (layer_count && !layers))
         return virga_wrong_argument(log, "virga_lens_prepare: expected up to %d layers, got %u%s",
                                     VIRGA_LENS_MAX_LAYERS, layer_count, layers ? "" : " in no array");
+    uint32_t on_scene = 0;
     result = check_view(lens, view, time_s);
-    for (uint32_t i = 0; i < layer_count && !result; i++)
+    for (uint32_t i = 0; i < layer_count && !result; i++) {
         result = check_layer(log, &layers[i], i);
+        on_scene += layers[i].on_scene;
+    }
+    if (!result && on_scene > 1)
+        return virga_wrong_argument(log, "layers: expected one on_scene at most, got %u", on_scene);
     return result ? result : virga_effect_ready(&lens->base);
 }
 
@@ -129,11 +138,14 @@ static void push_view(virga_lens *lens, const virga_view *view, const virga_lens
     *filled = (virga_lens_gpu){.layers = layer_count};
     fill_picture(lens, view, filled);
     fill_lens(lens, view, time_s, filled);
-    for (uint32_t i = 0; i < layer_count; i++)
-        filled->layer_inv_m[i] = layers[i].depth.view ? 0 : 1 / layers[i].depth_m;
+    for (uint32_t i = 0; i < layer_count; i++) {
+        filled->layer_inv_m[i] = layers[i].depth.view || layers[i].on_scene ? 0 : 1 / layers[i].depth_m;
+        filled->on_scene = layers[i].on_scene ? i + 1 : filled->on_scene;
+    }
     lens->view_offset = virga_ring_push(lens->base.context, &lens->view_ring, filled, sizeof *filled);
     lens->width = filled->width;
     lens->height = filled->height;
+    lens->layers = layer_count;
     lens->time_s = time_s;
     lens->has_time = true;
 }
@@ -153,8 +165,8 @@ static VkDescriptorSet write_set(virga_lens *lens, const virga_view *view, const
         const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
         bound[LENS_BIND_LAYER_COLORS + i] =
             virga_bound_or_blank(layer ? &layer->color : NULL, lens->blank_color, context->nearest);
-        bound[LENS_BIND_LAYER_DEPTHS + i] =
-            virga_bound_or_blank(layer ? &layer->depth : NULL, lens->blank_depth, context->nearest);
+        const virga_image *depth = layer && layer->on_scene ? &view->depth : layer ? &layer->depth : NULL;
+        bound[LENS_BIND_LAYER_DEPTHS + i] = virga_bound_or_blank(depth, lens->blank_depth, context->nearest);
     }
     return virga_bindings_write(context, lens->bindings, 0, bound);
 }
@@ -184,9 +196,10 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
-    over(lens, cmd, "lens.gather", lens->gather, view->columns, view->rows);
+    over(lens, cmd, "lens.gather", lens->gather[view->on_scene != 0], view->columns, view->rows);
     for (uint32_t i = 0; i < view->layers; i++)
-        over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
+        if (i + 1 != view->on_scene)
+            over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
     over(lens, cmd, "lens.combine", lens->combine, view->width, view->height);
 }
 
@@ -218,30 +231,52 @@ virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const vir
 
 /* ---- draw */
 
-const virga_effect_draw lens_draws[1] = {
-    {"lens.draw", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true, .replace = true},
+const virga_effect_draw lens_draws[LENS_DRAWS] = {
+    [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
+                           .replace = true},
+    [LENS_DRAW_PART] = {"lens.part", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_part_frag), .no_depth = true,
+                        .replace = true},
 };
 
-virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target)
+/* Over the viewport. */
+static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd, const virga_target *target,
+                         uint32_t row, uint32_t part)
 {
-    if (!lens)
-        return VIRGA_ERROR_INVALID;
     virga_context *context = lens->base.context;
     const virga_effect_target *found;
     virga_result result =
-        virga_effect_check_draw(&lens->base, "virga_lens_draw", cmd, target, virga_effect_ready(&lens->base), &found);
+        virga_effect_check_draw(&lens->base, call, cmd, target, virga_effect_ready(&lens->base), &found);
     if (result)
         return result;
-    const virga_pipeline *pipeline = found->draws[0];
+    const virga_pipeline *pipeline = found->draws[row];
     result = virga_pipelines_ready(&pipeline, 1);
     if (result)
         return result;
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, "lens.draw");
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, lens_draws[row].name);
     virga_set_draw_area(context, cmd, lens->base.view.viewport);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, lens->base.view.set, 1,
                &lens->view_offset);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof part, &part);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
+}
+
+virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target)
+{
+    return lens ? draw(lens, "virga_lens_draw", cmd, target, LENS_DRAW_PICTURE, 0) : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_lens_draw_part(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, uint32_t part)
+{
+    if (!lens)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &lens->base.context->log;
+    if (part > lens->layers)
+        return virga_wrong_argument(log, "virga_lens_draw_part: expected up to %u, the layers of the prepare, got %u",
+                                    lens->layers, part);
+    if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
+        return virga_wrong_argument(log, "virga_lens_draw_part: expected the physical style; the paper's has no parts");
+    return draw(lens, "virga_lens_draw_part", cmd, target, LENS_DRAW_PART, part);
 }

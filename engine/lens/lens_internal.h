@@ -35,9 +35,9 @@ struct virga_lens {
     virga_buffer *state, *spreads, *tiles, *reaches;
     virga_image_2d *aperture, *samples, *fields, *picture, *blank_depth, *blank_color;
     virga_ring view_ring;
-    uint32_t view_offset, width, height; /* of the newest prepare */
+    uint32_t view_offset, width, height, layers; /* of the newest prepare */
     virga_bindings *bindings;
-    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather, *layer[VIRGA_LENS_LAYERS], *combine,
+    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather[2], *layer[VIRGA_LENS_LAYERS], *combine,
         *paper;
     virga_lens_stats stats;
 };
@@ -48,6 +48,7 @@ struct virga_lens {
 void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, float areas[VIRGA_LENS_SPREADS]);
 
 /* ---- lens_draw.c */
-extern const virga_effect_draw lens_draws[1];
+enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAWS };
+extern const virga_effect_draw lens_draws[LENS_DRAWS];
 
 #endif

@@ -220,13 +220,27 @@ static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipe
     virga_draw_indexed_indirect(rain->base.context, cmd, pipeline, rain->prepared_buffer->buffer, arguments);
 }
 
-virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
+static void draw_all_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *line,
+                             const virga_pipeline *thin_quads, const virga_pipeline *wide_quads)
 {
-    if (!rain)
-        return VIRGA_ERROR_INVALID;
+    virga_context *context = rain->base.context;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
+    context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
+    if (line) {
+        context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
+        draw_streaks(rain, cmd, line, offsetof(virga_prepared_gpu, lines));
+    }
+    draw_streaks(rain, cmd, thin_quads, offsetof(virga_prepared_gpu, thin_quads));
+    draw_streaks(rain, cmd, wide_quads, offsetof(virga_prepared_gpu, wide_quads));
+    virga_pass_end(context, cmd, scope);
+}
+
+static virga_result draw_parts(virga_rain *rain, const char *call, VkCommandBuffer cmd, const virga_target *target,
+                               uint32_t parts)
+{
     const virga_effect_target *found;
     virga_result result =
-        virga_effect_check_draw(&rain->base, "virga_rain_draw", cmd, target, virga_effect_ready(&rain->base), &found);
+        virga_effect_check_draw(&rain->base, call, cmd, target, virga_effect_ready(&rain->base), &found);
     if (result)
         return result;
     const virga_pipeline *thin_quads = found->draws[RAIN_DRAW_THIN + rain->prepared_depth],
@@ -237,23 +251,31 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result)
         return result;
-    virga_context *context = rain->base.context;
-    virga_set_draw_area(context, cmd, rain->base.view.viewport);
+    virga_set_draw_area(rain->base.context, cmd, rain->base.view.viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->base.view.set);
-    if (rain->prepared_haze)
+    if ((parts & VIRGA_RAIN_HAZE) && rain->prepared_haze)
         draw_plain(rain, cmd, haze, 3, 1, "rain.haze");
-    if (rain->prepared_glows)
+    if ((parts & VIRGA_RAIN_HAZE) && rain->prepared_glows)
         draw_plain(rain, cmd, glow, 6, rain->prepared_glows, "rain.glow");
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
-    context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
-    if (line) {
-        context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
-        draw_streaks(rain, cmd, line, offsetof(virga_prepared_gpu, lines));
-    }
-    draw_streaks(rain, cmd, thin_quads, offsetof(virga_prepared_gpu, thin_quads));
-    draw_streaks(rain, cmd, wide_quads, offsetof(virga_prepared_gpu, wide_quads));
-    virga_pass_end(context, cmd, scope);
+    if (parts & VIRGA_RAIN_STREAKS)
+        draw_all_streaks(rain, cmd, line, thin_quads, wide_quads);
     return VIRGA_OK;
+}
+
+virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
+{
+    return rain ? draw_parts(rain, "virga_rain_draw", cmd, target, VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS)
+                : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_rain_draw_parts(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, uint32_t parts)
+{
+    if (!rain)
+        return VIRGA_ERROR_INVALID;
+    if (!parts || (parts & ~(uint32_t)(VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS)))
+        return virga_wrong_argument(&rain->base.context->log,
+                                    "virga_rain_draw_parts: expected bits of virga_rain_parts, got %u", parts);
+    return draw_parts(rain, "virga_rain_draw_parts", cmd, target, parts);
 }
 
 /* ---- haze alone */

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#define STATE_ACCESS
 #include "lens.glsl"
 
 layout(local_size_x = 1) in;

@@ -4,10 +4,12 @@ layout(set = 0, binding = 15) uniform sampler2D layer_color_0;
 layout(set = 0, binding = 16) uniform sampler2D layer_color_1;
 layout(set = 0, binding = 17) uniform sampler2D layer_color_2;
 layout(set = 0, binding = 18) uniform sampler2D layer_color_3;
-layout(set = 0, binding = 19) uniform sampler2D layer_depth_0;
-layout(set = 0, binding = 20) uniform sampler2D layer_depth_1;
-layout(set = 0, binding = 21) uniform sampler2D layer_depth_2;
-layout(set = 0, binding = 22) uniform sampler2D layer_depth_3;
+layout(set = 0, binding = 19) uniform sampler2D layer_color_4;
+layout(set = 0, binding = 20) uniform sampler2D layer_depth_0;
+layout(set = 0, binding = 21) uniform sampler2D layer_depth_1;
+layout(set = 0, binding = 22) uniform sampler2D layer_depth_2;
+layout(set = 0, binding = 23) uniform sampler2D layer_depth_3;
+layout(set = 0, binding = 24) uniform sampler2D layer_depth_4;
 
 vec4 layer_color(uint layer, ivec2 pixel)
 {
@@ -15,7 +17,8 @@ vec4 layer_color(uint layer, ivec2 pixel)
     case 0u: return finite(texelFetch(layer_color_0, pixel, 0));
     case 1u: return finite(texelFetch(layer_color_1, pixel, 0));
     case 2u: return finite(texelFetch(layer_color_2, pixel, 0));
-    default: return finite(texelFetch(layer_color_3, pixel, 0));
+    case 3u: return finite(texelFetch(layer_color_3, pixel, 0));
+    default: return finite(texelFetch(layer_color_4, pixel, 0));
     }
 }
 
@@ -25,7 +28,8 @@ float layer_depth(uint layer, ivec2 pixel)
     case 0u: return texelFetch(layer_depth_0, pixel, 0).r;
     case 1u: return texelFetch(layer_depth_1, pixel, 0).r;
     case 2u: return texelFetch(layer_depth_2, pixel, 0).r;
-    default: return texelFetch(layer_depth_3, pixel, 0).r;
+    case 3u: return texelFetch(layer_depth_3, pixel, 0).r;
+    default: return texelFetch(layer_depth_4, pixel, 0).r;
     }
 }
 

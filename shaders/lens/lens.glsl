@@ -13,7 +13,10 @@
 #include "shared/lens_gpu.h"
 
 layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
-layout(std430, set = 0, binding = 1) buffer State { virga_lens_state_gpu state; };
+#ifndef STATE_ACCESS
+#define STATE_ACCESS readonly
+#endif
+layout(std430, set = 0, binding = 1) STATE_ACCESS buffer State { virga_lens_state_gpu state; };
 
 // 1 / view depth (1/m) of a value of the depth buffer. 0 at infinity.
 float inverse_depth(float stored) { return max((view.depth_a + stored) / view.depth_b, 0.0); }

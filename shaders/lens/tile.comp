@@ -17,7 +17,8 @@ float largest_at(ivec2 texel)
 {
     float radius = abs(texelFetch(samples, texel, 0).a);
     for (uint layer = 0u; layer < view.layers; layer++)
-        radius = max(radius, abs(layer_circle(layer, texel)));
+        if (layer + 1u != view.on_scene)
+            radius = max(radius, abs(layer_circle(layer, texel)));
     return radius;
 }
 

@@ -14,7 +14,7 @@ typedef struct virga_lens_state_gpu virga_lens_state_gpu;
 #define VIRGA_LENS_MAX_RADIUS 63  /* px, of a circle of confusion in the work image */
 #define VIRGA_LENS_APERTURE   127 /* texels of the aperture image along a side: 2 VIRGA_LENS_MAX_RADIUS + 1 */
 #define VIRGA_LENS_SPREADS    512 /* entries of the table of areas */
-#define VIRGA_LENS_LAYERS     4   /* layers over the scene at most */
+#define VIRGA_LENS_LAYERS     5   /* layers over the scene at most */
 
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
@@ -50,7 +50,8 @@ struct virga_lens_gpu {
     float threshold_m[2];   /* (paper) m, differences of depth where blur begins and where it becomes stronger */
     float filter_weight[2]; /* (paper) weight of a filter's centre */
     uint layers;            /* layers over the scene */
-    float layer_inv_m[4];   /* 1/m, 1 / depth of a layer without a depth image; 0: it has one */
+    uint on_scene;          /* 1 + the layer that lies on the scene; 0: none does */
+    float layer_inv_m[5];   /* 1/m, 1 / depth of a layer without a depth image; 0: it has one */
     float areas[512];       /* texels, areas of the aperture's image, see shaders/lens/spread.glsl */
 };
 
@@ -61,7 +62,7 @@ struct virga_lens_state_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 132 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 140 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif

@@ -126,6 +126,32 @@ static void projection(void **state)
     assert_true(isinf(host_camera_distance(&camera, 1.0f)));
 }
 
+/* From a point of a lens, what is in focus at s stays. What is at d moves by lens (1/s - 1/d): right is right,
+ * and down is down. */
+static void a_point_of_the_lens_keeps_what_is_in_focus(void **state)
+{
+    (void)state;
+    const float points[2][3] = {{0.5f, 1.25f, -2}, {0.5f, 1.25f, -8}};
+    const double lens[2] = {0.03, -0.02}, pixels = 45 / tan(25 * 3.14159265358979323846 / 180);
+    host_camera before, after;
+    host_camera_at(&path, 0.0, 160, 90, NULL, &before);
+    after = before;
+    host_camera_move_on_lens(&after, lens, 2);
+    for (int i = 0; i < 2; i++) {
+        float from[3], to[3];
+        const double apart = pixels * (0.5 + 1 / (double)points[i][2]);
+        project(&before, points[i], from);
+        project(&after, points[i], to);
+        assert_float_equal(to[0] - from[0], lens[0] * apart, 1e-3);
+        assert_float_equal(to[1] - from[1], -lens[1] * apart, 1e-3);
+    }
+    assert_float_equal(after.position_m[0], 0.03, 1e-6);
+    assert_float_equal(after.position_m[1], 0.98, 1e-6);
+    after = before;
+    host_camera_move_on_lens(&after, lens, 0); /* at infinity nothing but the position changes */
+    assert_memory_equal(after.clip_from_view, before.clip_from_view, sizeof before.clip_from_view);
+}
+
 static void jitter_is_balanced(void **state)
 {
     (void)state;
@@ -187,6 +213,7 @@ int main(void)
         cmocka_unit_test(cut_holds_and_jumps),
         cmocka_unit_test(bad_paths),
         cmocka_unit_test(projection),
+        cmocka_unit_test(a_point_of_the_lens_keeps_what_is_in_focus),
         cmocka_unit_test(jitter_is_balanced),
         cmocka_unit_test(irradiance),
         cmocka_unit_test(rotation),

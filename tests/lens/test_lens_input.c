@@ -1,5 +1,5 @@
 /* test_lens_input.c - what hosts and pictures may get wrong, and the draw into a target. */
-#include "lens_fixture.h"
+#include "lens_drawn.h"
 
 static void colors_that_are_not_numbers_are_black_and_infinite_ones_are_bright(void **state)
 {
@@ -112,98 +112,14 @@ static void wrong_arguments_are_refused_with_a_line(void **state)
 
 /* ---- the draw */
 
-typedef struct drawn {
-    host_image image;
-    VkRenderPass pass;
-    VkFramebuffer framebuffer;
-    virga_target *target;
-} drawn;
-
-static void create_drawn(lens_fixture *f, drawn *made)
-{
-    const VkDevice device = f->gpu.device.device;
-    const host_image_def def = {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                .extent = {f->scene.width, f->scene.height, 1},
-                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                .name = "drawn"};
-    REQUIRE(host_image_create(&f->gpu.device, &def, &made->image, f->gpu.error, sizeof f->gpu.error));
-    const VkAttachmentDescription attachment = {.format = def.format,
-                                                .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                .finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {.colorAttachmentCount = 1, .pColorAttachments = &color};
-    const VkSubpassDependency to_copy = {0,
-                                         VK_SUBPASS_EXTERNAL,
-                                         VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                         VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                         VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                                         VK_ACCESS_TRANSFER_READ_BIT,
-                                         0};
-    const VkRenderPassCreateInfo pass = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 1,
-                                         .pAttachments = &attachment,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 1,
-                                         .pDependencies = &to_copy};
-    REQUIRE(vkCreateRenderPass(device, &pass, NULL, &made->pass) == VK_SUCCESS);
-    const VkFramebufferCreateInfo framebuffer = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                                 .renderPass = made->pass,
-                                                 .attachmentCount = 1,
-                                                 .pAttachments = &made->image.view,
-                                                 .width = f->scene.width,
-                                                 .height = f->scene.height,
-                                                 .layers = 1};
-    REQUIRE(vkCreateFramebuffer(device, &framebuffer, NULL, &made->framebuffer) == VK_SUCCESS);
-    virga_target_def target = virga_default_target_def();
-    target.render_pass = made->pass;
-    target.depth_attached = false;
-    target.reversed_depth = true;
-    REQUIRE(virga_target_create(f->context, &target, &made->target) == VIRGA_OK);
-    REQUIRE(virga_lens_attach(f->lens, made->target) == VIRGA_OK);
-}
-
-static void destroy_drawn(lens_fixture *f, drawn *made)
-{
-    virga_target_destroy(&made->target);
-    vkDestroyFramebuffer(f->gpu.device.device, made->framebuffer, NULL);
-    vkDestroyRenderPass(f->gpu.device.device, made->pass, NULL);
-    host_image_destroy(&f->gpu.device, &made->image);
-}
-
-/* Draws into the target, and reads the target back into the result. */
-static virga_result draw_and_read(lens_fixture *f, const drawn *made, VkCommandBuffer cmd)
-{
-    const VkClearValue clear = {.color = {.float32 = {9, 9, 9, 9}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = made->pass,
-                                         .framebuffer = made->framebuffer,
-                                         .renderArea = {{0, 0}, {f->scene.width, f->scene.height}},
-                                         .clearValueCount = 1,
-                                         .pClearValues = &clear};
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    const virga_result result = virga_lens_draw(f->lens, cmd, made->target);
-    vkCmdEndRenderPass(cmd);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {f->scene.width, f->scene.height, 1}};
-    vkCmdCopyImageToBuffer(cmd, made->image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, f->download.buffer, 1, &copy);
-    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
-                        VK_ACCESS_HOST_READ_BIT);
-    effect_fixture_complete(&f->gpu, f->context);
-    host_buffer_invalidate(&f->gpu.device, &f->download);
-    return result;
-}
-
 static void a_draw_puts_the_picture_into_its_viewport(void **state)
 {
     (void)state;
     lens_fixture f;
-    drawn made = {0};
+    lens_drawn made = {0};
     host_image color;
     lens_fixture_open(&f, 24, 20, false);
-    create_drawn(&f, &made);
+    lens_create_drawn(&f, &made);
     lens_paint_all(&f.scene, 0.5f, 1);
     lens_paint(&f.scene, 10, 9, 4, 1);
     f.view.color = lens_upload(&f, &f.scene, false, &color);
@@ -213,7 +129,7 @@ static void a_draw_puts_the_picture_into_its_viewport(void **state)
     f.view.viewport[3] = 12;
     VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
     REQUIRE(virga_lens_prepare(f.lens, cmd, &f.view, NULL, 0, 0) == VIRGA_OK);
-    assert_int_equal(draw_and_read(&f, &made, cmd), VIRGA_OK);
+    assert_int_equal(lens_draw_and_read(&f, &made, cmd, LENS_WHOLE), VIRGA_OK);
     const uint16_t *halves = f.download.mapped;
     for (uint32_t y = 0; y < 20; y++)
         for (uint32_t x = 0; x < 24; x++) {
@@ -222,9 +138,9 @@ static void a_draw_puts_the_picture_into_its_viewport(void **state)
             assert_float_equal(lens_half_float(halves[4 * (y * 24 + x)]), expected, 0);
         }
     cmd = effect_fixture_begin(&f.gpu, f.context); /* nothing is prepared in this frame */
-    assert_int_equal(draw_and_read(&f, &made, cmd), VIRGA_NOT_READY);
+    assert_int_equal(lens_draw_and_read(&f, &made, cmd, LENS_WHOLE), VIRGA_NOT_READY);
     host_image_destroy(&f.gpu.device, &color);
-    destroy_drawn(&f, &made);
+    lens_destroy_drawn(&f, &made);
     lens_fixture_close(&f);
 }
 

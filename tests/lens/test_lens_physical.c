@@ -63,8 +63,9 @@ static double reference(const lens_fixture *f, int x, int y)
             } else {
                 const double cut = own < -0.5 ? fmax(radius, -own) : fmin(radius, fmax(own, 0.5));
                 const double wide = fmax(cut, 0.5);
+                const double near_by = own < -0.5 ? fmin(pow(fmax(radius, 1) / hypot(right, down), 6), 1) : 1;
                 const double weight =
-                    coverage(&f->settings, -right, -down, cut) / (M_PI * (wide * wide + 1.0 / 12) + 0.1);
+                    near_by * coverage(&f->settings, -right, -down, cut) / (M_PI * (wide * wide + 1.0 / 12) + 0.1);
                 far += weight * gray;
                 far_weight += weight;
             }

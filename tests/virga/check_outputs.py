@@ -16,8 +16,8 @@ SIZE = (160, 90)
 CAMERA = (1.5, 1.7, 8.0)  # of frame 1, looking at
 TARGET = (-0.5, 2.2, -12.0)
 
-HALF = ["A", "B", "G", "R", "normal.X", "normal.Y", "normal.Z", "rain.A", "rain.B", "rain.G", "rain.R", "splash.A",
-        "splash.B", "splash.G", "splash.R", "velocity.X", "velocity.Y"]
+HALF = ["A", "B", "G", "R", "haze.A", "haze.B", "haze.G", "haze.R", "normal.X", "normal.Y", "normal.Z", "rain.A",
+        "rain.B", "rain.G", "rain.R", "splash.A", "splash.B", "splash.G", "splash.R", "velocity.X", "velocity.Y"]
 CHANNELS = dict([(name, "half") for name in HALF + ["wetness.Y"]] +
                 [("Z", "float"), ("id.Y", "uint"), ("waterdepth.Y", "float")])
 

@@ -20,6 +20,13 @@
 extern "C" {
 #endif
 
+/* What depth a lens blurs a layer by. */
+typedef enum tool_layer_depth {
+    TOOL_DEPTH_DRAWN, /* its own: drawing it writes depth */
+    TOOL_DEPTH_SCENE, /* that of the scene, which it lies on */
+    TOOL_DEPTH_FOCUS, /* none: what is drawn is as blurred as it should be */
+} tool_layer_depth;
+
 /* One layer of a frame: channels in its EXR. */
 typedef struct tool_layer {
     const char *name;        /* for --layers */
@@ -28,7 +35,8 @@ typedef struct tool_layer {
     const char *help;
     /* Draws the layer into its own image. Called inside a render pass. NULL: the layer is part of the plate. */
     virga_result (*draw)(void *state, VkCommandBuffer cmd, const virga_target *target);
-    int order;         /* layers with a higher order cover those with a lower one */
+    int order; /* layers with a higher order cover those with a lower one */
+    tool_layer_depth depth;
     bool is_data;      /* not a color: not part of the beauty layer, and taken from one sub-frame, not averaged */
     host_output plate; /* (no draw) the output that holds the layer */
     uint32_t value;    /* (no draw) index of the layer's first value in a pixel of that output */
@@ -225,6 +233,13 @@ typedef struct tool_effect {
 
     const tool_points *points;
     const tool_mesh *mesh;
+    /* Finds something by name that a camera can focus on, for a camera at a time of its path: a point of it, and the
+     * normal of its surface there, or all zero. NULL: it has nothing that has a name. */
+    bool (*find)(shot *s, void *state, const char *name, double camera_s, double point_m[3], double normal[3]);
+
+    /* Whether a scene has such a thing. */
+    bool (*has)(const scene_file *scene, const char *name);
+
     /* Writes its object in a line of stats.jsonl. */
     void (*write_stats)(shot *s, void *state, jsonl *stats);
     /* Writes sums over several effects, after the objects of all effects. */

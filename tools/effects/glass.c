@@ -360,6 +360,39 @@ static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camer
     return true;
 }
 
+static bool has_pane(const scene_file *scene, const char *name)
+{
+    const scene_glass *glass = scene_glass_of(scene);
+    for (uint32_t i = 0; i < glass->pane_count; i++)
+        if (!strcmp(glass->panes[i].name, name))
+            return true;
+    return false;
+}
+
+/* The middle of a pane. */
+static bool find_pane(shot *s, void *state, const char *name, double camera_s, double point_m[3], double normal[3])
+{
+    const glass_state *g = state;
+    for (uint32_t i = 0; i < g->count; i++) {
+        virga_glass_pose pose;
+        double point[3], out[3];
+        if (strcmp(g->panes[i].from->name, name))
+            continue;
+        glass_pose(s, g->panes[i].from, camera_s, &pose);
+        glass_point(&g->panes[i], 0.5, 0.5, point, out);
+        for (int axis = 0; axis < 3; axis++) {
+            point_m[axis] = pose.position_m[axis];
+            normal[axis] = 0;
+            for (int k = 0; k < 3; k++) {
+                point_m[axis] += point[k] * (double)pose.world_from_pane[3 * k + axis];
+                normal[axis] += out[k] * (double)pose.world_from_pane[3 * k + axis];
+            }
+        }
+        return true;
+    }
+    return false;
+}
+
 static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
 {
     const glass_state *g = state;
@@ -477,6 +510,8 @@ const tool_effect glass_effect = {
     .shows_behind = true,
     .before_plate = before_plate,
     .prepare = prepare,
+    .find = find_pane,
+    .has = has_pane,
     .points = &glass_points,
     .write_stats = write_stats,
     .print_entry = glass_print_entry,

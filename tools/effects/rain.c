@@ -270,15 +270,24 @@ static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment
                    "preparing the rain", error, error_size);
 }
 
-static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *target)
+static virga_result draw_haze(void *state, VkCommandBuffer cmd, const virga_target *target)
 {
     const rain_state *r = state;
-    const virga_result result = virga_rain_draw(r->rain, cmd, target);
+    const virga_result result = virga_rain_draw_parts(r->rain, cmd, target, VIRGA_RAIN_HAZE);
     return result < 0 ? result : r->mirror_result < 0 ? r->mirror_result : result;
 }
 
+static virga_result draw_streaks(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    const rain_state *r = state;
+    return virga_rain_draw_parts(r->rain, cmd, target, VIRGA_RAIN_STREAKS);
+}
+
 static const tool_layer layers[] = {
-    {TOOL_COLOR_LAYER("rain", draw, 20, "rain", "the falling drops alone")},
+    {TOOL_COLOR_LAYER("haze", draw_haze, 19, "haze", "rain too far or too fine for streaks, and lamps that glow in it"),
+     .depth = TOOL_DEPTH_SCENE},
+    /* Each streak is drawn as wide as the lens makes it. */
+    {TOOL_COLOR_LAYER("rain", draw_streaks, 20, "rain", "the falling drops alone"), .depth = TOOL_DEPTH_FOCUS},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */

@@ -36,6 +36,8 @@ void host_accumulator_destroy(host_accumulator *a)
     free(a->water);
     free(a->depth);
     free(a->id);
+    free(a->weights);
+    free(a->weight_sums);
     memset(a, 0, sizeof *a);
 }
 
@@ -44,15 +46,30 @@ void host_accumulator_reset(host_accumulator *a)
     a->samples = 0;
 }
 
-/* The first sample is stored instead of added, so that a reset need not clear anything. */
-static void add(float *sum, const float *values, size_t count, bool first)
+float *host_accumulator_weigh(host_accumulator *a, char *error, size_t error_size)
 {
-    if (first) {
-        memcpy(sum, values, count * sizeof *sum);
+    const size_t pixels = (size_t)a->width * a->height;
+    a->weights = a->weights ? a->weights : calloc(pixels, sizeof(float));
+    a->weight_sums = a->weight_sums ? a->weight_sums : calloc(pixels, sizeof(float));
+    if (!a->weights || !a->weight_sums)
+        host_fail(error, error_size, "no memory for a picture of %u x %u", a->width, a->height);
+    return a->weight_sums ? a->weights : NULL;
+}
+
+/* The first sample is stored instead of added, so that a reset need not clear anything. */
+static void add(const host_accumulator *a, float *sum, const float *values, size_t channels)
+{
+    const size_t pixels = (size_t)a->width * a->height;
+    if (!a->samples)
+        memset(sum, 0, pixels * channels * sizeof *sum);
+    if (!a->weights) {
+        for (size_t i = 0; i < pixels * channels; i++)
+            sum[i] += values[i];
         return;
     }
-    for (size_t i = 0; i < count; i++)
-        sum[i] += values[i];
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < channels; c++)
+            sum[i * channels + c] += a->weights[i] * values[i * channels + c];
 }
 
 static void add_layers(host_accumulator *a, const host_device *device, const host_target *target, bool first, bool keep)
@@ -62,7 +79,7 @@ static void add_layers(host_accumulator *a, const host_device *device, const hos
     for (uint32_t i = 0; i < target->layer_count; i++) {
         const float *pixels = host_target_floats(device, target, (host_output)(HOST_LAYER + i));
         if (!(target->kept_layers & 1u << i))
-            add(a->layers[i], pixels, values, first);
+            add(a, a->layers[i], pixels, 4);
         else if (first || keep)
             memcpy(a->layers[i], pixels, values * sizeof(float));
     }
@@ -73,11 +90,13 @@ void host_accumulator_add(host_accumulator *a, const host_device *device, const 
 {
     size_t pixels = (size_t)a->width * a->height;
     bool first = a->samples == 0;
-    add(a->color, host_target_floats(device, target, HOST_COLOR), pixels * 4, first);
+    add(a, a->color, host_target_floats(device, target, HOST_COLOR), 4);
     add_layers(a, device, target, first, keep);
-    add(a->normal, host_target_floats(device, target, HOST_NORMAL), pixels * 4, first);
-    add(a->velocity, host_target_floats(device, target, HOST_VELOCITY), pixels * 2, first);
-    add(a->water, host_target_floats(device, target, HOST_WATER), pixels * 2, first);
+    add(a, a->normal, host_target_floats(device, target, HOST_NORMAL), 4);
+    add(a, a->velocity, host_target_floats(device, target, HOST_VELOCITY), 2);
+    add(a, a->water, host_target_floats(device, target, HOST_WATER), 2);
+    for (size_t i = 0; a->weights && i < pixels; i++)
+        a->weight_sums[i] = a->weights[i] + (first ? 0 : a->weight_sums[i]);
     if (first || keep) {
         memcpy(a->depth, host_target_floats(device, target, HOST_DEPTH), pixels * sizeof(float));
         memcpy(a->id, host_target_ids(device, target), pixels * sizeof(uint32_t));
@@ -91,19 +110,27 @@ static void scale(float *values, size_t count, float factor)
         values[i] *= factor;
 }
 
+static void divide(const host_accumulator *a, float *values, size_t channels)
+{
+    const size_t pixels = (size_t)a->width * a->height;
+    if (!a->weights)
+        scale(values, pixels * channels, 1.0f / (float)a->samples);
+    for (size_t i = 0; a->weights && i < pixels; i++)
+        scale(&values[i * channels], channels, 1.0f / a->weight_sums[i]);
+}
+
 void host_accumulator_finish(host_accumulator *a)
 {
     size_t pixels = (size_t)a->width * a->height;
-    if (a->samples < 2)
+    if (a->samples < 2 && !a->weights)
         return;
-    float factor = 1.0f / (float)a->samples;
-    scale(a->color, pixels * 4, factor);
+    divide(a, a->color, 4);
     for (uint32_t i = 0; i < a->layer_count; i++)
         if (!(a->kept_layers & 1u << i))
-            scale(a->layers[i], pixels * 4, factor);
-    scale(a->normal, pixels * 4, factor);
-    scale(a->velocity, pixels * 2, factor);
-    scale(a->water, pixels * 2, factor);
+            divide(a, a->layers[i], 4);
+    divide(a, a->normal, 4);
+    divide(a, a->velocity, 2);
+    divide(a, a->water, 2);
     for (size_t i = 0; i < pixels; i++) {
         float *n = &a->normal[i * 4];
         float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -18,6 +18,7 @@ typedef struct host_accumulator {
     float *water;                      /* wetness, depth (m) */
     float *depth;                      /* of one sub-frame: a mean of depths would be where nothing is */
     uint32_t *id;                      /* of the same sub-frame */
+    float *weights, *weight_sums;      /* of each pixel, see host_accumulator_weigh; NULL: all are 1 */
 } host_accumulator;
 
 bool host_accumulator_create(host_accumulator *accumulator, uint32_t width, uint32_t height, char *error,
@@ -26,6 +27,9 @@ void host_accumulator_destroy(host_accumulator *accumulator);
 
 /* Back to no samples. */
 void host_accumulator_reset(host_accumulator *accumulator);
+
+/* Weights of the next sub-frames' pixels, to be filled before each is added. NULL: no memory. */
+float *host_accumulator_weigh(host_accumulator *accumulator, char *error, size_t error_size);
 
 /* Adds all outputs that were copied out of a target. Use the same order every time, because sums are floats. With
  * `keep`, depth, id and the target's kept layers are those of this sub-frame; without any `keep` those of the first

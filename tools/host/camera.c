@@ -192,6 +192,29 @@ void host_camera_at(const host_camera_path *path, double time_s, uint32_t width,
     projection(path, width, height, center, camera->clip_from_view_plain);
 }
 
+void host_camera_zoom(host_camera *camera, double factor)
+{
+    for (int i = 0; i <= 5; i += 5) {
+        camera->clip_from_view[i] = (float)((double)camera->clip_from_view[i] * factor);
+        camera->clip_from_view_plain[i] = (float)((double)camera->clip_from_view_plain[i] * factor);
+    }
+}
+
+/* A point at (x, y, -focus) is at (x - dx, y - dy) from the new eye. The columns of z get what keeps it in place:
+ * m0 (x - dx) - m8 focus = m0 x. */
+void host_camera_move_on_lens(host_camera *camera, const double lens_m[2], double focus_m)
+{
+    const double per_m = focus_m > 0 ? 1 / focus_m : 0;
+    for (int axis = 0; axis < 2; axis++) {
+        const double shift = -(double)camera->clip_from_view_plain[5 * axis] * lens_m[axis] * per_m;
+        camera->clip_from_view[8 + axis] = (float)((double)camera->clip_from_view[8 + axis] + shift);
+        camera->clip_from_view_plain[8 + axis] = (float)((double)camera->clip_from_view_plain[8 + axis] + shift);
+        camera->view_from_world[12 + axis] = (float)((double)camera->view_from_world[12 + axis] - lens_m[axis]);
+        for (int i = 0; i < 3; i++) /* rows of the matrix are the camera's axes */
+            camera->position_m[i] += lens_m[axis] * (double)camera->view_from_world[4 * i + axis];
+    }
+}
+
 void host_matrix_multiply(const float a[16], const float b[16], float out[16])
 {
     float result[16];

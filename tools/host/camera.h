@@ -43,6 +43,13 @@ bool host_camera_path_check(const host_camera_path *path, char *error, size_t er
 void host_camera_at(const host_camera_path *path, double time_s, uint32_t width, uint32_t height,
                     const float jitter_px[2], host_camera *camera);
 
+/* Makes everything in the picture larger. */
+void host_camera_zoom(host_camera *camera, double factor);
+
+/* Moves the camera's eye to the right and up by `lens_m`, as to another point of a lens. What is at `focus_m` (0:
+ * infinity) stays where it is in the picture. */
+void host_camera_move_on_lens(host_camera *camera, const double lens_m[2], double focus_m);
+
 /* When the shot that `time_s` lies in began; -INFINITY for the first one. Motion must not reach back beyond it. */
 double host_camera_shot_start(const host_camera_path *path, double time_s);
 

@@ -215,6 +215,7 @@ bool host_target_add_moving(host_device *device, host_target *target, char *erro
 
 void host_target_destroy(host_device *device, host_target *target)
 {
+    host_target_drop_focus(device, target);
     vkDestroyFramebuffer(device->device, target->moving_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->moving_pass, NULL);
     host_image_destroy(device, &target->moving);
@@ -378,7 +379,7 @@ void host_target_describe_moving(const host_target *target, virga_target_def *de
 
 static void copy_image(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
-    const host_image *image = &target->images[output];
+    const host_image *image = host_target_shown(target, output);
     VkBufferImageCopy region = {
         .imageSubresource = {output == HOST_DEPTH ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
         .imageExtent = image->extent,
@@ -387,11 +388,17 @@ static void copy_image(const host_target *target, VkCommandBuffer cmd, host_outp
                            &region);
 }
 
+/* Whether the drawn image is copied, which may be in the layout for shaders. */
+static bool is_drawn(const host_target *target, host_output output)
+{
+    return host_target_shown(target, output) == &target->images[output];
+}
+
 /* Into the layout for copies. */
 static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     VkImageLayout layout;
-    if (is_sampled(output, &layout))
+    if (is_sampled(output, &layout) && is_drawn(target, output))
         host_image_barrier(cmd, &target->images[output], layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                            VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
@@ -402,7 +409,7 @@ static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_outp
 static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     VkImageLayout layout;
-    if (is_sampled(output, &layout))
+    if (is_sampled(output, &layout) && is_drawn(target, output))
         host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, 0, HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);

@@ -39,7 +39,19 @@ typedef struct host_target {
     VkFramebuffer moving_framebuffer;
     host_image moving;
     host_image behind; /* RGBA float: the plate with layers drawn into it; created by host_target_add_behind */
+    /* Created by host_target_add_focus: */
+    bool in_focus; /* the outputs that are shown and copied are those of `focused`, where there are such */
+    host_image focused[HOST_OUTPUT_COUNT];
+    VkFramebuffer focused_framebuffers[HOST_OUTPUT_COUNT];
+    host_image layer_depths[HOST_MAX_LAYERS], depth_color;
+    VkFramebuffer depth_framebuffers[HOST_MAX_LAYERS];
+    VkRenderPass depth_pass; /* draws the depth of a layer, and a color that is not stored */
+    host_buffer pick;        /* of one pixel: the plate's depth, then each layer's color and depth */
 } host_target;
+
+typedef struct host_pick {
+    float color[4], depth;
+} host_pick;
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
                         size_t error_size);
@@ -55,6 +67,32 @@ bool host_target_add_behind(host_device *device, host_target *target, char *erro
 
 /* Adds the pass that draws the velocity of water over the plate's. It needs its own virga_target. */
 bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size);
+
+/* Adds what a lens needs: images of the plate's color and of all layers but kept ones, out of focus, and depth of the
+ * layers whose bits (1u << layer) are set. After all layers. */
+bool host_target_add_focus(host_device *device, host_target *target, uint32_t layers_with_depth, char *error,
+                           size_t error_size);
+void host_target_drop_focus(host_device *device, host_target *target); /* accepts a target without it */
+
+/* Draws the depth of a layer, into a virga_target of its own. */
+void host_target_begin_layer_depth(const host_target *target, VkCommandBuffer cmd, host_output layer);
+void host_target_describe_layer_depth(const host_target *target, virga_target_def *def);
+
+/* After all layers: they can be sampled from now on. Then host_target_begin_focused draws outputs out of focus, and
+ * host_target_end_layer ends each. */
+void host_target_read_layers(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_focused(const host_target *target, VkCommandBuffer cmd, host_output output);
+virga_image host_target_layer(const host_target *target, host_output layer);
+virga_image host_target_layer_depth(const host_target *target, host_output layer);
+
+/* The image of an output that is shown and copied: the drawn one, or the one out of focus. The latter is in the layout
+ * for copies. */
+const host_image *host_target_shown(const host_target *target, host_output output);
+
+/* Copies one pixel, after the layers are out of focus. Once the device has completed it, host_target_picked_depth
+ * returns the depth of the nearest: the plate, or a layer that has a depth and covers the pixel by `coverage`. */
+void host_target_pick(const host_target *target, VkCommandBuffer cmd, const uint32_t at[2]);
+float host_target_picked_depth(const host_device *device, const host_target *target, float coverage);
 
 /* Replaces the drawing of a plate: copies `pixels` into its color (RGBA floats, rows from the top) and clears its other
  * outputs, depth to 1. */

@@ -1,6 +1,7 @@
 /* scene_core.c - the keys of scene files that belong to no effect: models, sky, lights, camera, frames. */
 #include "scene_rows.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,13 +52,37 @@ static const scene_row camera_key_rows[] = {
 };
 static const scene_group camera_key_group = SCENE_GROUP(scene_camera_key, camera_key_rows);
 
+static const scene_row focus_key_rows[] = {
+    NUMBER(scene_focus_key, time_s, -MAX_METERS, MAX_METERS, "0", RESTARTS, "when the focus is there"),
+    NUMBER(scene_focus_key, focus_m, 0, 1e6, "0", RESTARTS, "distance that is sharp; 0: infinity"),
+    OPTIONAL_TEXT(scene_focus_key, focus_on, 95, RESTARTS, "or a part of the name of what is sharp"),
+};
+static const scene_group focus_key_group = SCENE_GROUP(scene_focus_key, focus_key_rows);
+
+static const scene_keyword blurs[] = {{"gather", SCENE_BLUR_GATHER}, {"exact", SCENE_BLUR_EXACT}, {NULL, 0}};
 static const scene_row camera_rows[] = {
-    NUMBER(scene_camera, fov_deg, 1, 170, "50", LIVE, "angle of view of the picture's height"),
+    NUMBER(scene_camera, fov_deg, 1, 170, "50", LIVE, "angle of view of the picture's height, without focal_mm"),
+    NUMBER(scene_camera, focal_mm, 0, 2000, "0", LIVE, "focal length, for the angle of view; 0: from fov_deg"),
+    NUMBER(scene_camera, sensor_mm, 1, 1000, "24", LIVE, "height of the sensor"),
     NUMBER(scene_camera, near_m, 1e-4, 1e4, "0.1", LIVE, "what is nearer is not drawn"),
     NUMBER(scene_camera, far_m, 1e-3, MAX_METERS, "2000", LIVE, "what is farther is not drawn"),
+    NUMBER(scene_camera, aperture_f, 0, 128, "0", LIVE,
+           "f-number: what is out of focus is blurred by a lens this wide; 0: everything is sharp"),
     NUMBER(scene_camera, aperture_mm, 0, 1000, "0", LIVE,
-           "width of the lens's opening: streaks out of focus are blurred by it"),
-    NUMBER(scene_camera, focus_m, 0, 1e6, "0", LIVE, "distance at which streaks are sharp; 0: infinity"),
+           "width of the lens's opening for streaks alone, e.g. over footage; without aperture_f"),
+    NUMBER(scene_camera, focus_m, 0, 1e6, "0", LIVE, "distance that is sharp; 0: infinity"),
+    OPTIONAL_TEXT(scene_camera, focus_on, 95, RESTARTS,
+                  "a part of the name of what is sharp instead: a mesh, a material or a pane"),
+    LIST(scene_camera, focus_keys, focus_key_count, &focus_key_group, 0, 100000, "[]",
+         "a rack focus: where the focus is at some times, in order of time"),
+    WHOLE(scene_camera, blades, 0, 16, "0", LIVE, "of the aperture; below 3: it is round"),
+    NUMBER(scene_camera, blade_roundness, 0, 1, "0", LIVE, "0: straight blades, 1: a circle"),
+    NUMBER(scene_camera, blade_rotation_deg, -360, 360, "0", LIVE, "turns the aperture, clockwise"),
+    NUMBER(scene_camera, cats_eye, 0, 1, "0", LIVE, "how far the lens cuts discs in the picture's corners"),
+    NUMBER(scene_camera, breathing, 0, 1, "0", LIVE,
+           "how much the angle of view narrows as the focus comes nearer; 1: as that of a simple lens"),
+    CHOICE(scene_camera, blur, blurs, "gather", RESTARTS,
+           "gather: each sub-frame is blurred by its depth; exact: each looks from another point of the lens"),
     LIST(scene_camera, keys, key_count, &camera_key_group, 1, 100000, NULL,
          "positions on the camera's path, in order of time"),
 };
@@ -93,7 +118,51 @@ static const scene_row core_rows[] = {
     GROUP(scene_file, preview, &preview_group, LIVE, "how previews are shown"),
 };
 
+/* ---- the lens ------------------------------------------------------------------------------------------------- */
+
+#define DEGREES (180 / 3.14159265358979323846)
+
+double scene_camera_fov_deg(const scene_camera *camera)
+{
+    return camera->focal_mm > 0 ? 2 * DEGREES * atan(0.5 * camera->sensor_mm / camera->focal_mm) : camera->fov_deg;
+}
+
+double scene_camera_focal_m(const scene_camera *camera)
+{
+    const double focal_mm =
+        camera->focal_mm > 0 ? camera->focal_mm : 0.5 * camera->sensor_mm / tan(0.5 * camera->fov_deg / DEGREES);
+    return 1e-3 * focal_mm;
+}
+
+double scene_camera_aperture_m(const scene_camera *camera)
+{
+    return camera->aperture_f > 0 ? scene_camera_focal_m(camera) / camera->aperture_f : 0;
+}
+
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
+
+static bool check_lens(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_camera *camera = &scene->camera;
+    char key[64];
+    const double fov_deg = scene_camera_fov_deg(camera);
+    if (fov_deg < 1 || fov_deg > 170)
+        return scene_file_refuse(scene, "camera.focal_mm", error, error_size,
+                                 "expected an angle of view of 1 to 170 degrees, got %.3g on a sensor of %g mm",
+                                 fov_deg, camera->sensor_mm);
+    if (camera->aperture_f > 0 && camera->aperture_mm > 0)
+        return scene_file_refuse(scene, "camera.aperture_mm", error, error_size,
+                                 "expected it without aperture_f, which also blurs streaks");
+    for (uint32_t i = 1; i < camera->focus_key_count; i++) {
+        const scene_focus_key *now = &camera->focus_keys[i];
+        if (now->time_s > now[-1].time_s)
+            continue;
+        snprintf(key, sizeof key, "camera.focus_keys.%u.time_s", i);
+        return scene_file_refuse(scene, key, error, error_size, "expected more than the key before has (%g), got %g",
+                                 now[-1].time_s, now->time_s);
+    }
+    return true;
+}
 
 static bool check_camera(const scene_file *scene, char *error, size_t error_size)
 {
@@ -102,6 +171,8 @@ static bool check_camera(const scene_file *scene, char *error, size_t error_size
     if (camera->far_m <= camera->near_m)
         return scene_file_refuse(scene, "camera.far_m", error, error_size, "expected more than near_m (%g), got %g",
                                  camera->near_m, camera->far_m);
+    if (!check_lens(scene, error, error_size))
+        return false;
     for (uint32_t i = 0; i < camera->key_count; i++) {
         const scene_camera_key *now = &camera->keys[i];
         if (i > 0 && now->time_s <= now[-1].time_s) {

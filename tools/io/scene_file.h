@@ -55,11 +55,34 @@ typedef struct scene_camera_key {
     bool cut; /* a new shot begins here */
 } scene_camera_key;
 
+/* Where the focus is at a time: at an object, or at a distance. */
+typedef struct scene_focus_key {
+    double time_s;
+    double focus_m; /* 0: infinity */
+    char *focus_on; /* NULL: focus_m */
+} scene_focus_key;
+
+/* How the blur of a lens is made. */
+typedef enum scene_blur {
+    SCENE_BLUR_GATHER, /* each sub-frame is blurred by its depth */
+    SCENE_BLUR_EXACT,  /* each sub-frame looks from another point of the lens */
+} scene_blur;
+
 typedef struct scene_camera {
-    double fov_deg; /* of the picture's height */
+    double fov_deg;   /* of the picture's height, where focal_mm is 0 */
+    double focal_mm;  /* focal length; 0: from fov_deg */
+    double sensor_mm; /* height of the sensor */
     double near_m, far_m;
-    double aperture_mm, focus_m; /* for the focus of streaks; aperture 0: all is sharp; focus 0: sharp at infinity */
-    scene_camera_key *keys;      /* at least 1, by rising time */
+    double aperture_f;           /* f-number; 0: everything is sharp */
+    double aperture_mm;          /* for the focus of streaks alone, where aperture_f is 0 */
+    double focus_m;              /* 0: infinity */
+    char *focus_on;              /* name of a mesh, a material or a pane; NULL: focus_m */
+    scene_focus_key *focus_keys; /* by rising time; none: focus_on or focus_m at all times */
+    uint32_t focus_key_count;
+    uint32_t blades;
+    double blade_roundness, blade_rotation_deg, cats_eye, breathing;
+    uint32_t blur;          /* scene_blur */
+    scene_camera_key *keys; /* at least 1, by rising time */
     uint32_t key_count;
 } scene_camera;
 
@@ -113,6 +136,11 @@ bool scene_file_refuse(const scene_file *scene, const char *key, char *error, si
  * material map, pictures of panes. It does not depend on where the files are. Files that a mesh includes (textures
  * beside it) are not hashed. Of each file of a sequence of particles, the size and three parts of 4096 bytes are. */
 uint64_t scene_file_hash(const scene_file *scene);
+
+/* Angle of view of the picture's height, with the focus at infinity; focal length, and diameter of the aperture. */
+double scene_camera_fov_deg(const scene_camera *camera);
+double scene_camera_focal_m(const scene_camera *camera);
+double scene_camera_aperture_m(const scene_camera *camera); /* 0: a pinhole */
 
 /* The settings of an effect: a struct of the section's size. NULL if the scene was loaded without the section. */
 void *scene_file_section(const scene_file *scene, const scene_section *section);

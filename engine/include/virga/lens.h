@@ -30,12 +30,12 @@ extern "C" {
 
 typedef struct virga_lens virga_lens; /* opaque */
 
-#define VIRGA_LENS_MAX_LAYERS 4 /* layers over the scene */
+#define VIRGA_LENS_MAX_LAYERS 5 /* layers over the scene */
 
 typedef struct virga_lens_def {
     uint32_t size, cookie;
 
-    /* [16; 16384] largest viewport in pixels. Memory: 76 bytes per pixel, or 25 at half resolution. Default 1920 and
+    /* [16; 16384] largest viewport in pixels. Memory: 84 bytes per pixel, or 27 at half resolution. Default 1920 and
      * 1080. */
     uint32_t max_width, max_height;
 
@@ -139,6 +139,10 @@ typedef struct virga_lens_layer {
 
     /* [0.001; 1e6] view depth of the whole layer (m), if it has no depth image. */
     float depth_m;
+
+    /* 0 or 1. 1: the layer lies on the scene, as haze does, and is blurred as the scene's own color; it needs no depth.
+     * One layer at most. */
+    uint32_t on_scene;
 } virga_lens_layer;
 
 /* Blurs view->color by view->depth, and puts the layers over it, the first one first. Outside rendering, once per
@@ -158,6 +162,13 @@ VIRGA_API virga_result virga_lens_attach(virga_lens *lens, const virga_target *t
 /* Writes the picture into the target, over its viewport. Inside rendering. VIRGA_NOT_READY, and nothing is recorded, if
  * the target is not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target);
+
+/* (physical) Writes one part of the picture into the target instead, over its viewport: 0 is the scene without layers,
+ * 1 the first layer, and so on. Layers are premultiplied, and cut by what of the scene is out of focus before
+ * them. So a host can put them over the scene in their order. Inside rendering; view.color and the images of the layers
+ * are read again. Errors as virga_lens_draw; VIRGA_ERROR_INVALID for a part that the newest prepare did not have. */
+VIRGA_API virga_result virga_lens_draw_part(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target,
+                                            uint32_t part);
 
 /* The picture of the newest prepare: R16G16B16A16_SFLOAT, its pixel (0, 0) is the viewport's first. Its layout is
  * VK_IMAGE_LAYOUT_GENERAL. Ready to be read by compute and fragment shaders and transfers after the prepare. */

@@ -297,6 +297,17 @@ VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *t
  * frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
+/* Bits of what virga_rain_draw draws, in its order. */
+typedef enum virga_rain_parts {
+    VIRGA_RAIN_HAZE = 1,    /* haze, and the glow of lamps in it: as deep as the scene behind it */
+    VIRGA_RAIN_STREAKS = 2, /* each as wide as a lens blurs it, see virga_view.aperture_m */
+} virga_rain_parts;
+
+/* The same for some parts alone, e.g. for a layer of each that a lens blurs in its own way. VIRGA_ERROR_INVALID if
+ * `parts` has no bit of them, or another one. */
+VIRGA_API virga_result virga_rain_draw_parts(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target,
+                                             uint32_t parts);
+
 /* Draws haze and the glow of lamps alone, as another view sees them: over the reflected world of puddles, mirrors and
  * probes, where it rains too. There are no streaks in it; haze stands for all of the rain.
  *

@@ -373,9 +373,14 @@ typedef struct virga_target_def {
     /* One of Vulkan's sample counts, else refused. Default 1. */
     VkSampleCountFlagBits samples;
 
-    /* The pass has a depth attachment, and draws are tested against it. They never write depth. Set it to false where
-     * the pass has none. Default true. */
+    /* The pass has a depth attachment, and draws are tested against it. Set it to false where the pass has none.
+     * Default true. */
     bool depth_attached;
+
+    /* (depth_attached) Draws also write the depth of what they cover. For a pass of its own, which draws a layer again
+     * for a lens that blurs it by its depth; colors blend wrong in it. Haze has no depth and writes none. Default
+     * false. */
+    bool depth_written;
 
     /* Greater depth is nearer. Default false. */
     bool reversed_depth;

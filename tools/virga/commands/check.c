@@ -5,6 +5,7 @@
 #include "effect.h"
 #include "exr.h"
 #include "scene_file.h"
+#include "shot/focus.h"
 #include "shot/shot.h"
 
 #include <assimp/cimport.h>
@@ -12,6 +13,7 @@
 #include <assimp/scene.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const option_row rows[] = {
     {"--set", 0, "KEY=VALUE", "override a key before the check, e.g. rain.rate_mm_h=50. May be repeated", true},
@@ -53,12 +55,66 @@ static bool check_environment(const char *path)
     return true;
 }
 
+/* ---- what the camera focuses on */
+
+static bool node_has(const struct aiNode *node, const char *name)
+{
+    if (strcasestr(node->mName.data, name))
+        return true;
+    for (unsigned i = 0; i < node->mNumChildren; i++)
+        if (node_has(node->mChildren[i], name))
+            return true;
+    return false;
+}
+
+static bool model_has(const char *path, const char *name)
+{
+    const struct aiScene *model = aiImportFile(path, 0);
+    bool found = model && model->mRootNode && node_has(model->mRootNode, name);
+    for (unsigned i = 0; model && i < model->mNumMeshes; i++)
+        found = found || strcasestr(model->mMeshes[i]->mName.data, name);
+    for (unsigned i = 0; model && i < model->mNumMaterials; i++) {
+        struct aiString text;
+        found = found || (aiGetMaterialString(model->mMaterials[i], AI_MATKEY_NAME, &text) == aiReturn_SUCCESS &&
+                          strcasestr(text.data, name));
+    }
+    if (model)
+        aiReleaseImport(model);
+    return found;
+}
+
+static bool check_name(const scene_file *scene, const char *name, const char *key)
+{
+    char error[512];
+    bool found = !name;
+    for (uint32_t i = 0; !found && tool_effects[i]; i++)
+        found = tool_effects[i]->has && tool_effects[i]->has(scene, name);
+    for (uint32_t i = 0; !found && i < scene->mesh_count; i++)
+        found = model_has(scene->meshes[i].file, name);
+    if (found)
+        return true;
+    scene_file_refuse(scene, key, error, sizeof error, SHOT_NO_SUCH_FOCUS, name);
+    return options_complain("check", "%s", error);
+}
+
+static bool check_focus(const scene_file *scene)
+{
+    const scene_camera *camera = &scene->camera;
+    bool good = check_name(scene, camera->focus_on, "camera.focus_on");
+    for (uint32_t i = 0; good && i < camera->focus_key_count; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "camera.focus_keys.%u.focus_on", i);
+        good = check_name(scene, camera->focus_keys[i].focus_on, key);
+    }
+    return good;
+}
+
 static bool check_files(const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         if (!check_mesh(scene->meshes[i].file))
             return false;
-    if (!check_environment(scene->environment.file))
+    if (!check_environment(scene->environment.file) || !check_focus(scene))
         return false;
     for (uint32_t i = 0; tool_effects[i]; i++) {
         char error[1024];
@@ -66,6 +122,21 @@ static bool check_files(const scene_file *scene)
             return options_complain("check", "%s", error);
     }
     return true;
+}
+
+static void print_lens(const scene_camera *camera)
+{
+    if (camera->aperture_f <= 0)
+        return;
+    printf("  lens         %.3g mm, f/%g, focus ", 1e3 * scene_camera_focal_m(camera), camera->aperture_f);
+    if (camera->focus_key_count)
+        printf("by %u keys\n", camera->focus_key_count);
+    else if (camera->focus_on)
+        printf("on %s\n", camera->focus_on);
+    else if (camera->focus_m > 0)
+        printf("at %g m\n", camera->focus_m);
+    else
+        printf("at infinity\n");
 }
 
 static void print_scene(const char *path, const scene_file *scene)
@@ -76,6 +147,7 @@ static void print_scene(const char *path, const scene_file *scene)
            frames->size[0], frames->size[1]);
     if (frames->preroll_s > 0)
         printf("  pre-roll     %g s of rain before frame %u\n", frames->preroll_s, frames->first);
+    print_lens(&scene->camera);
     for (uint32_t i = 0; tool_effects[i]; i++)
         if (tool_effects[i]->print)
             tool_effects[i]->print(scene);

@@ -2,6 +2,8 @@
 #include "shot/internal.h"
 
 #include "effect.h"
+#include "shot/focus.h"
+#include "shot/lens.h"
 #include "shot/plate.h"
 
 #include <math.h>
@@ -108,12 +110,19 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
     return true;
 }
 
-static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, const host_camera *now,
-                           const host_camera *frame_ago, char *error, size_t error_size)
+/* The cameras of a sub-frame, where its shutter closes and opens and a frame before, and the view that they make. */
+typedef struct sample_cameras {
+    host_camera now, open, frame_ago;
+    double focus_inv_m; /* 1 / view depth that is sharp */
+} sample_cameras;
+
+static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, const sample_cameras *cameras,
+                           char *error, size_t error_size)
 {
     if (!prepare(s, cmd, at, error, error_size) ||
-        !record_plate(s, cmd, at->camera_s, now, frame_ago, error, error_size) ||
-        !draw_layers(s, cmd, at, error, error_size))
+        !record_plate(s, cmd, at->camera_s, &cameras->now, &cameras->frame_ago, error, error_size) ||
+        !draw_layers(s, cmd, at, error, error_size) ||
+        !shot_record_lens(s, cmd, at, cameras->focus_inv_m, error, error_size))
         return false;
     if (!s->moving_target)
         return true;
@@ -134,30 +143,52 @@ static void set_frame_ago(const shot *s, const host_camera *frame_ago, virga_vie
         temporal->motion_coverage = 0.01f * (float)s->options.water_velocity;
 }
 
-/* The cameras of a sub-frame, where its shutter closes and opens and a frame before, and the view that they make. */
-typedef struct sample_cameras {
-    host_camera now, open, frame_ago;
-} sample_cameras;
-
-static virga_view look_through(const shot *s, double close_s, double part_s, double shot_start, const float *jitter,
-                               sample_cameras *cameras)
+/* All three cameras look from the same point of the lens, so that only motion is between them. */
+static void place_cameras(shot *s, double close_s, double part_s, double shot_start, const float *jitter,
+                          const double lens_m[2], sample_cameras *cameras)
 {
-    const host_camera_path eye = shot_eye(s);
-    const uint32_t width = s->options.width, height = s->options.height;
-    host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &cameras->now);
+    const double inv_m = cameras->focus_inv_m, focus_m = inv_m > 0 ? 1 / inv_m : 0;
+    shot_camera(s, fmax(close_s, shot_start), inv_m, jitter, &cameras->now);
     cameras->now.samples = s->options.samples;
-    host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &cameras->open);
-    host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter,
-                   &cameras->frame_ago);
+    shot_camera(s, fmax(close_s - part_s, shot_start), inv_m, jitter, &cameras->open);
+    shot_camera(s, fmax(close_s - 1 / s->scene->frames.fps, shot_start), inv_m, jitter, &cameras->frame_ago);
+    host_camera_move_on_lens(&cameras->now, lens_m, focus_m);
+    host_camera_move_on_lens(&cameras->open, lens_m, focus_m);
+    host_camera_move_on_lens(&cameras->frame_ago, lens_m, focus_m);
+}
+
+/* The lens, for streaks: each is blurred by its own depth, unless sub-frames look through the lens. */
+static void set_lens(const shot *s, double focus_inv_m, virga_view *view)
+{
+    const scene_camera *camera = &s->scene->camera;
+    const double aperture_m = camera->aperture_f > 0 ? scene_camera_aperture_m(camera) : 1e-3 * camera->aperture_mm;
+    view->aperture_m = shot_looks_through_lens(s) ? 0 : (float)fmin(aperture_m, 1);
+    view->focus_m = focus_inv_m > 1e-6 ? (float)(1 / focus_inv_m) : 0;
+}
+
+static virga_view look_through(shot *s, double part_s, const sample_cameras *cameras)
+{
     virga_view view = virga_default_view();
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&cameras->now, &cameras->open, part_s, &view);
     view.sub_frames = s->options.samples;
     set_frame_ago(s, &cameras->frame_ago, &view);
-    view.aperture_m = (float)(s->scene->camera.aperture_mm * 1e-3);
-    view.focus_m = (float)s->scene->camera.focus_m;
+    set_lens(s, cameras->focus_inv_m, &view);
     return view;
+}
+
+/* Where on the lens a sub-frame looks from, to the right and up. */
+static void lens_point(const shot *s, uint32_t sample, double lens_m[2])
+{
+    const scene_camera *camera = &s->scene->camera;
+    const double radius_m = 0.5 * scene_camera_aperture_m(camera);
+    lens_m[0] = lens_m[1] = 0;
+    if (!shot_looks_through_lens(s))
+        return;
+    shot_lens_point(camera, sample, s->options.samples, lens_m);
+    lens_m[0] *= radius_m;
+    lens_m[1] *= -radius_m; /* it was down */
 }
 
 /* The shutter closes at the frame's time. */
@@ -168,16 +199,33 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     const double part_s = shutter_s / s->options.samples;
     const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
     const double shot_start = host_camera_shot_start(&eye, time_s);
+    const double camera_s = fmax(close_s, shot_start);
     float jitter[2];
-    sample_cameras steady, cameras;
+    double lens_m[2];
+    sample_cameras steady = {.focus_inv_m = shot_focus_inv_m(s, camera_s)}, cameras = steady;
     host_camera_jitter(sample, s->options.samples, jitter);
-    const virga_view steady_view = look_through(s, close_s, part_s, shot_start, NULL, &steady);
-    const virga_view jittered_view = look_through(s, close_s, part_s, shot_start, jitter, &cameras);
-    const tool_moment at = {.jittered = &jittered_view,
-                            .steady = &steady_view,
-                            .camera_s = fmax(close_s, shot_start),
-                            .late_s = time_s - close_s};
-    return record_picture(s, cmd, &at, &cameras.now, &cameras.frame_ago, error, error_size);
+    lens_point(s, sample, lens_m);
+    place_cameras(s, close_s, part_s, shot_start, NULL, lens_m, &steady);
+    place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
+    const virga_view steady_view = look_through(s, part_s, &steady);
+    const virga_view jittered_view = look_through(s, part_s, &cameras);
+    const tool_moment at = {
+        .jittered = &jittered_view, .steady = &steady_view, .camera_s = camera_s, .late_s = time_s - close_s};
+    return record_picture(s, cmd, &at, &cameras, error, error_size);
+}
+
+/* Cat's eye, where sub-frames look through the lens. */
+static bool weigh_sample(shot *s, uint32_t sample, char *error, size_t error_size)
+{
+    const scene_camera *camera = &s->scene->camera;
+    double point[2];
+    if (!shot_looks_through_lens(s) || camera->cats_eye <= 0)
+        return true;
+    float *weights = host_accumulator_weigh(&s->frame, error, error_size);
+    shot_lens_point(camera, sample, s->options.samples, point);
+    if (weights)
+        shot_lens_weights(camera, point, s->options.width, s->options.height, weights);
+    return weights;
 }
 
 static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
@@ -186,7 +234,8 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
     if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size))
         return false;
     host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
-    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
+    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size) ||
+        !weigh_sample(s, sample, error, error_size))
         return false;
     host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
     return true;
@@ -194,8 +243,7 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
 
 bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size)
 {
-    const host_camera_path eye = shot_eye(s);
-    host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, camera);
+    shot_camera(s, time_s, shot_focus_inv_m(s, time_s), NULL, camera);
     host_accumulator_reset(&s->frame);
     for (uint32_t sample = 0; sample < s->options.samples; sample++)
         if (!draw_sample(s, sample, time_s, error, error_size))

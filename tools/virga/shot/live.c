@@ -1,6 +1,9 @@
 /* live.c - steps and draws a shot whose time, camera and settings a user controls. */
 #include "shot/internal.h"
 
+#include "shot/focus.h"
+#include "shot/lens.h"
+
 #include <math.h>
 
 /* What may have changed in the scene since the last frame, beside the settings that every step applies. */
@@ -23,8 +26,7 @@ bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *ca
         return false;
     s->began = true;
     s->frame_index = s->scene->frames.first + (uint32_t)(fmax(time_s, 0) * s->scene->frames.fps + 0.5);
-    const host_camera_path eye = shot_eye(s);
-    host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, camera);
+    shot_camera(s, time_s, shot_focus_inv_m(s, time_s), NULL, camera);
     return true;
 }
 
@@ -56,9 +58,10 @@ bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, siz
     if (!host_wait(&s->device, error, error_size))
         return false;
     host_accumulator_destroy(&s->frame);
+    shot_close_lens(s);
     host_target_destroy(&s->device, &s->target);
     s->options.width = width;
     s->options.height = height;
     return shot_create_target(s, error, error_size) && shot_resize_effects(s, error, error_size) &&
-           host_accumulator_create(&s->frame, width, height, error, error_size);
+           shot_open_lens(s, error, error_size) && host_accumulator_create(&s->frame, width, height, error, error_size);
 }

@@ -108,7 +108,7 @@ bool shot_load_camera(shot *s)
     }
     s->path = (host_camera_path){.keys = s->camera_keys,
                                  .count = from->key_count,
-                                 .fov_deg = from->fov_deg,
+                                 .fov_deg = scene_camera_fov_deg(from),
                                  .near_m = from->near_m,
                                  .far_m = from->far_m};
     return true;

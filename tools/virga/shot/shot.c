@@ -3,6 +3,8 @@
 
 #include "effect.h"
 #include "shot/checkpoint.h"
+#include "shot/focus.h"
+#include "shot/lens.h"
 #include "shot/plate.h"
 
 #include <math.h>
@@ -55,12 +57,14 @@ bool shot_open_scene(shot *s, char *error, size_t error_size)
         return false;
     shot_load_lights(s);
     return shot_load_meshes(s, error, error_size) && shot_load_environment(s, error, error_size) &&
-           shot_open_effects(s, error, error_size) && shot_apply_settings(s, 0, error, error_size);
+           shot_open_effects(s, error, error_size) && shot_apply_settings(s, 0, error, error_size) &&
+           shot_check_focus(s, error, error_size) && shot_open_lens(s, error, error_size);
 }
 
 void shot_close_scene(shot *s)
 {
     host_renderer_destroy(&s->renderer);
+    shot_close_lens(s);
     shot_close_effects(s);
     for (uint32_t i = 0; i < s->meshes_loaded; i++)
         host_mesh_destroy(&s->device, &s->meshes[i]);

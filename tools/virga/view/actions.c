@@ -237,6 +237,7 @@ bool view_shoot(viewer *v, const char *path)
 /* ---- keys */
 
 static const char *const key_lines[] = {
+    "left mouse button: focus on what is there, if camera.aperture_f is above 0",
     "right mouse button: look around   W A S D, Q E: fly (Shift: faster)   C: back to the camera's path",
     "Space: pause     N: one frame on     [ ]: slower, faster     R: start anew     1 to 5: presets",
     "V, Shift V: next, previous view   B: picture   P: screenshot   F2: save   Tab: panel   Esc: quit",

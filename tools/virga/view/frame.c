@@ -158,6 +158,9 @@ static bool record(viewer *v, VkCommandBuffer cmd, double dt_s, const view_shown
     view_picture_begin(cmd);
     if (!shot_live_record(&v->shot, cmd, dt_s, &v->seen, error, size))
         return false;
+    v->picking = v->picking && v->shot.target.in_focus;
+    if (v->picking)
+        host_target_pick(&v->shot.target, cmd, v->pick_at);
     view_picture_prepare(&v->picture, cmd, &v->shot, &v->seen, shown);
     view_window_begin(&v->window, cmd);
     view_picture_draw(&v->picture, cmd, &v->shot, &v->window, shown);
@@ -185,12 +188,15 @@ static bool draw(viewer *v, double wall_s)
     const double dt_s = time_of_frame(v, wall_s);
     view_camera_move(v, wall_s, dt_s);
     fit_picture(v, shown.area);
+    view_focus_move(v, shown.area, v->script ? 1 / v->scene->frames.fps : wall_s);
     shown.mode = view_mode_items(&v->shot, v->mode) ? v->mode : 0;
     shown.item = v->item;
     if (!shot_begin(&v->shot, &cmd, v->error, sizeof v->error) || !record(v, cmd, dt_s, &shown) ||
         !view_window_present(&v->window, v->error, sizeof v->error))
         return false;
     v->frame++;
+    if (v->picking && !view_focus_pick(v))
+        return false;
     read_numbers(v, wall_s);
     return !v->window_shot[0] || write_window(v);
 }

@@ -188,11 +188,11 @@ static void write_outputs(const view_picture *p, const shot *s, VkDescriptorSet 
     for (size_t i = 0; i < sizeof plate_bindings / sizeof plate_bindings[0]; i++) {
         const host_output output = plate_bindings[i].output;
         host_set_write_image(p->device, set, plate_bindings[i].binding, output == HOST_COLOR ? p->linear : p->nearest,
-                             s->target.images[output].view,
+                             host_target_shown(&s->target, output)->view,
                              output == HOST_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL : read);
     }
     for (uint32_t i = 0; i < VIEW_LAYERS; i++) {
-        const host_image *image = &s->target.images[HOST_LAYER + i];
+        const host_image *image = host_target_shown(&s->target, (host_output)(HOST_LAYER + i));
         host_set_write_image(p->device, set, VIEW_AT_LAYERS + i, p->linear, image->image ? image->view : p->blank.view,
                              read);
     }
@@ -218,11 +218,14 @@ static void write_set(const view_picture *p, const shot *s, const tool_view_data
 static void make_readable(VkCommandBuffer cmd, const shot *s)
 {
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        if (i != HOST_COLOR && i != HOST_DEPTH && s->target.images[i].image)
-            host_image_barrier(cmd, &s->target.images[i], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        const host_image *shown = host_target_shown(&s->target, (host_output)i);
+        const bool readable = shown == &s->target.images[i] && (i == HOST_COLOR || i == HOST_DEPTH);
+        if (shown->image && !readable)
+            host_image_barrier(cmd, shown, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, drawing, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
                                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    }
 }
 
 void view_picture_begin(VkCommandBuffer cmd)

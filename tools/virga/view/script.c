@@ -77,6 +77,13 @@ static bool do_set(viewer *v, const script_line *line)
     return view_assign(v, assignment);
 }
 
+static bool do_focus(viewer *v, const script_line *line)
+{
+    double at[2];
+    return read_number(v, line->arguments[0], 0, 1, &at[0]) && read_number(v, line->arguments[1], 0, 1, &at[1]) &&
+           view_focus_at(v, at[0], at[1]);
+}
+
 static bool do_add(viewer *v, const script_line *line)
 {
     return view_list_add(v, line->arguments[0]);
@@ -263,6 +270,7 @@ static const struct {
     {"window", "FILE.png", "save the window with the panel", 1, 1, do_window},
     {"save", "FILE.yaml", "save the changed scene", 1, 1, do_save},
     {"camera", "X Y Z YAW PITCH", "move the camera (metres, degrees; 0 0 looks along -Z)", 5, 5, do_camera},
+    {"focus", "X Y", "focus on what is there in the picture: shares of its width and height", 2, 2, do_focus},
     {"path", "", "back to the scene's camera path", 0, 0, do_path},
     {"pause", "", "stop time", 0, 0, do_pause},
     {"play", "", "continue", 0, 0, do_play},

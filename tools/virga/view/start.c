@@ -49,6 +49,7 @@ bool view_start_again(viewer *v)
 {
     char why[sizeof v->error];
     memset(&v->numbers, 0, sizeof v->numbers);
+    v->shot.focus_picked = false;
     if (shot_live_restart(&v->shot, v->error, sizeof v->error))
         return view_remember_start(v);
     snprintf(why, sizeof why, "%s", v->error);

@@ -100,6 +100,10 @@ typedef struct viewer {
     char message[512]; /* one line for the user */
     double message_s;  /* time at which it disappears */
 
+    /* Focus. */
+    bool mouse_down, picking; /* the left button is down; the pixel below is to be focused on */
+    uint32_t pick_at[2];      /* px of the picture */
+
     /* Work to do between frames. */
     bool restart, quit;
     bool needs_restart;     /* a changed setting needs a restart */
@@ -172,6 +176,17 @@ void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, do
 
 /* Moves the camera by keys and mouse for `wall_s` of real time, and sets it in the shot, which advances by `dt_s`. */
 void view_camera_move(viewer *v, double wall_s, double dt_s);
+
+/* ---- focus.c */
+
+/* Focuses on what is at a share of the picture, right and down, from the next frame on. */
+bool view_focus_at(viewer *v, double x, double y);
+
+/* Reads the mouse, and moves the focus towards what was picked. `area` is where the picture lies. */
+void view_focus_move(viewer *v, const float area[4], double time_s);
+
+/* After a frame that has copied the picked pixel. False: v->error says why. */
+bool view_focus_pick(viewer *v);
 
 /* ---- script.c */
 

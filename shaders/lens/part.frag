@@ -1,0 +1,28 @@
+// part.frag - the scene alone, or one layer alone, out of focus. A layer is cut by what of the scene is out of focus in
+// front of it. So the parts can be put over each other in their order.
+// One invocation per pixel. Reads: color, depth, layers, fields.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "lens.glsl"
+#include "pixels.glsl"
+#include "layers.glsl"
+#include "compose.glsl"
+
+layout(push_constant) uniform Part { uint part; }; // 0: the scene; else 1 + the number of a layer
+layout(location = 0) out vec4 color;
+
+void main()
+{
+    look_at(uvec2(gl_FragCoord.xy) - uvec2(view.left, view.top));
+    vec4 near, far;
+    float near_px;
+    scene_at(near, far, near_px);
+    if (part == 0u) {
+        color = over(near, far);
+        return;
+    }
+    bool behind = true;
+    for (uint layer = 0u; layer < part; layer++)
+        color = layer_cut(layer, near, near_px, behind);
+}

@@ -1,0 +1,183 @@
+/* lens.c - the library's lens in a shot: the depth of layers, the blur, and the layers out of focus. */
+#include "shot/lens.h"
+
+#include "shot/focus.h"
+
+#include <virga/lens.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct shot_lens {
+    virga_lens *lens;
+    virga_target *depth_target;
+    bool warned; /* that blur is cut */
+} shot_lens;
+
+static bool has_own_depth(const shot_layer *layer)
+{
+    return !layer->layer->is_data && layer->layer->depth == TOOL_DEPTH_DRAWN;
+}
+
+/* ---- create and destroy */
+
+static bool create_lens(shot *s, char *error, size_t error_size)
+{
+    virga_lens_def def = virga_default_lens_def();
+    def.max_width = s->options.width < 16 ? 16 : s->options.width;
+    def.max_height = s->options.height < 16 ? 16 : s->options.height;
+    def.half_resolution = s->options.live;
+    return shot_ok(s, virga_lens_create(s->context, &def, &s->lens->lens), "creating a lens", error, error_size) &&
+           shot_ok(s, virga_lens_attach(s->lens->lens, s->layer_target), "building a lens", error, error_size);
+}
+
+static bool create_depth_target(shot *s, uint32_t layers, char *error, size_t error_size)
+{
+    virga_target_def def = virga_default_target_def();
+    if (!layers)
+        return true;
+    host_target_describe_layer_depth(&s->target, &def);
+    return shot_ok(s, virga_target_create(s->context, &def, &s->lens->depth_target), "creating a target for depth",
+                   error, error_size) &&
+           shot_ok(s, virga_scene_attach(s->simulation, s->lens->depth_target), "building pipelines for depth", error,
+                   error_size);
+}
+
+bool shot_open_lens(shot *s, char *error, size_t error_size)
+{
+    uint32_t own_depths = 0;
+    shot_close_lens(s);
+    if (!s->options.draw || !(s->options.live || shot_gathers(s)))
+        return true;
+    s->lens = calloc(1, sizeof *s->lens);
+    if (!s->lens)
+        return host_fail(error, error_size, "no memory for a lens");
+    uint32_t colors = 0;
+    for (uint32_t i = 0; i < s->layer_count; i++)
+        colors += !s->layers[i].layer->is_data;
+    if (colors > VIRGA_LENS_MAX_LAYERS)
+        return host_fail(error, error_size, "camera.aperture_f: a lens blurs %d layers, the scene has %u",
+                         VIRGA_LENS_MAX_LAYERS, colors);
+    for (uint32_t i = 0; i < s->layer_count; i++)
+        own_depths |= has_own_depth(&s->layers[i]) ? 1u << (s->layers[i].output - HOST_LAYER) : 0;
+    return host_target_add_focus(&s->device, &s->target, own_depths, error, error_size) &&
+           create_lens(s, error, error_size) && create_depth_target(s, own_depths, error, error_size);
+}
+
+void shot_close_lens(shot *s)
+{
+    if (!s->lens)
+        return;
+    virga_lens_destroy(&s->lens->lens);
+    virga_target_destroy(&s->lens->depth_target);
+    free(s->lens);
+    s->lens = NULL;
+    host_target_drop_focus(&s->device, &s->target);
+    s->target.in_focus = false;
+}
+
+/* ---- settings */
+
+#define MAX_RADIUS_PX 63 /* of the library, at full resolution */
+
+/* What is farthest is blurred the most, but for what is very near. */
+static void warn_of_cut(shot *s, const virga_lens_settings *settings, double focus_inv_m)
+{
+    const scene_camera *camera = &s->scene->camera;
+    const double pixels = 0.5 * s->options.height / tan(0.5 * scene_camera_fov_deg(camera) * M_PI / 180);
+    const double radius_px = 0.5 * scene_camera_aperture_m(camera) * pixels * focus_inv_m;
+    if (s->lens->warned || s->options.live || radius_px <= (double)settings->max_radius_px)
+        return;
+    host_warn(&s->device, "camera: blur of %.0f pixels is cut to %g; camera.blur=exact cuts none", radius_px,
+              (double)settings->max_radius_px);
+    s->lens->warned = true;
+}
+
+static bool apply(shot *s, double focus_inv_m, char *error, size_t error_size)
+{
+    const scene_camera *camera = &s->scene->camera;
+    virga_lens_settings to = virga_default_lens_settings();
+    to.focal_m = (float)fmin(fmax(scene_camera_focal_m(camera), 0.001), 10);
+    to.aperture_f = (float)(camera->aperture_f * (double)to.focal_m / scene_camera_focal_m(camera));
+    to.focus_m = focus_inv_m > 1e-6 ? (float)(1 / focus_inv_m) : 0;
+    to.blades = camera->blades;
+    to.blade_roundness = (float)camera->blade_roundness;
+    to.blade_rotation_deg = (float)camera->blade_rotation_deg;
+    to.cats_eye = (float)camera->cats_eye;
+    to.max_radius_px = MAX_RADIUS_PX;
+    warn_of_cut(s, &to, focus_inv_m);
+    return shot_ok(s, virga_lens_set(s->lens->lens, &to), "setting the lens", error, error_size);
+}
+
+/* ---- recording */
+
+/* Colors and depths of layers, as the library wants them. */
+static uint32_t list_layers(const shot *s, double focus_inv_m, virga_lens_layer layers[VIRGA_LENS_MAX_LAYERS],
+                            host_output outputs[VIRGA_LENS_MAX_LAYERS])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < s->layer_count && count < VIRGA_LENS_MAX_LAYERS; i++) {
+        const shot_layer *from = &s->layers[i];
+        if (from->layer->is_data)
+            continue;
+        virga_lens_layer *to = &layers[count];
+        *to = (virga_lens_layer){.color = host_target_layer(&s->target, from->output)};
+        to->on_scene = from->layer->depth == TOOL_DEPTH_SCENE;
+        to->depth_m = (float)fmin(fmax(1 / fmax(focus_inv_m, 1e-6), 0.001), 1e6);
+        if (has_own_depth(from))
+            to->depth = host_target_layer_depth(&s->target, from->output);
+        outputs[count++] = from->output;
+    }
+    return count;
+}
+
+static bool draw_depths(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        const shot_layer *layer = &s->layers[i];
+        if (!has_own_depth(layer))
+            continue;
+        host_target_begin_layer_depth(&s->target, cmd, layer->output);
+        const virga_result result = layer->layer->draw(s->states[layer->effect], cmd, s->lens->depth_target);
+        host_target_end_layer(&s->target, cmd);
+        if (!shot_ok(s, result, "drawing the depth of a layer", error, error_size))
+            return false;
+    }
+    return true;
+}
+
+static bool draw_part(shot *s, VkCommandBuffer cmd, host_output output, uint32_t part, char *error, size_t error_size)
+{
+    host_target_begin_focused(&s->target, cmd, output);
+    const virga_result result = virga_lens_draw_part(s->lens->lens, cmd, s->layer_target, part);
+    host_target_end_layer(&s->target, cmd);
+    return shot_ok(s, result, "drawing what is out of focus", error, error_size);
+}
+
+bool shot_record_lens(shot *s, VkCommandBuffer cmd, const tool_moment *at, double focus_inv_m, char *error,
+                      size_t error_size)
+{
+    virga_lens_layer layers[VIRGA_LENS_MAX_LAYERS];
+    host_output outputs[VIRGA_LENS_MAX_LAYERS];
+    virga_view view = *at->jittered;
+    s->target.in_focus = s->lens && shot_gathers(s);
+    if (!s->target.in_focus)
+        return true;
+    /* Footage is as sharp as it was filmed. */
+    if (s->plate)
+        view.depth = (virga_image){0};
+    const uint32_t count = list_layers(s, focus_inv_m, layers, outputs);
+    if (!apply(s, focus_inv_m, error, error_size) || !draw_depths(s, cmd, error, error_size))
+        return false;
+    host_target_read_layers(&s->target, cmd);
+    if (!shot_ok(s, virga_lens_prepare(s->lens->lens, cmd, &view, layers, count, at->camera_s), "focusing", error,
+                 error_size) ||
+        !draw_part(s, cmd, HOST_COLOR, 0, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        if (!draw_part(s, cmd, outputs[i], i + 1, error, error_size))
+            return false;
+    return true;
+}
