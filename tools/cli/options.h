@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { EXIT_OK = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
+enum { EXIT_OK = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_GAVE_UP = 3, EXIT_INTERRUPTED = 130 };
 
 typedef struct option_row {
     const char *name;  /* "--size"; `letter` is its short form */

@@ -2,6 +2,7 @@
 #include "commands/commands.h"
 #include "effect.h"
 #include "file.h"
+#include "frame/claims.h"
 #include "frame/files.h"
 #include "frame/layers.h"
 #include "frame/resume.h"
@@ -51,6 +52,11 @@ static const option_row rows[] = {
      "render of the same scene into the folder starts from the nearest one, and gives the same bytes",
      false},
     {"--simulate", 0, NULL, "only simulate, and write checkpoints (with --checkpoint-every); nothing is drawn", false},
+    {"--claim", 0, "TASK",
+     "for tasks that draw into one folder at the same time, see virga help farm: like --resume, but a frame that "
+     "another task is drawing is left to it, and one that has failed three times is left out. TASK is a name, under "
+     "which statistics go to DIR/farm/stats.TASK.jsonl",
+     false},
     {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50. May be repeated", true},
@@ -80,7 +86,7 @@ void render_help(void)
            "      --layers glass,refraction\n\n"
            "Ctrl-C finishes the current frame; `--resume` continues later. Exit codes: 0 done, 1 failed (disk\n"
            "full, device lost; finished frames are kept), 2 wrong command line or scene, or a file that it\n"
-           "names, 130 interrupted.\n");
+           "names, 3 (--claim) frames that failed three times are missing, 130 interrupted.\n");
 }
 
 typedef struct render_job {
@@ -88,13 +94,13 @@ typedef struct render_job {
     scene_file *scene;
     shot shot;
     shot_options how;
-    const char *directory;
+    const char *directory, *task; /* task: of --claim, or NULL */
     uint32_t frames[2], layers;
     bool points, meshes, stats, preview, resume, simulate;
     jsonl stats_file;
     bool stats_open;
     bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
-    uint32_t written;
+    uint32_t written, gave_up;
     char error[1024];
 } render_job;
 
@@ -112,7 +118,10 @@ static bool read_options(render_job *job, int argc, char **argv)
     job->meshes = options_value(&job->parsed, "--meshes");
     job->stats = options_value(&job->parsed, "--stats");
     job->preview = options_value(&job->parsed, "--preview");
-    job->resume = options_value(&job->parsed, "--resume");
+    job->task = options_value(&job->parsed, "--claim");
+    if (job->task && (!job->task[0] || strchr(job->task, '/')))
+        return options_complain("render", "--claim: expected a name without '/', got '%s'", job->task);
+    job->resume = options_value(&job->parsed, "--resume") || job->task;
     job->simulate = options_value(&job->parsed, "--simulate");
     if (job->simulate && !options_value(&job->parsed, "--checkpoint-every"))
         return options_complain("render",
@@ -237,9 +246,12 @@ static bool open_stats(render_job *job)
     const resume_request request = request_of(job);
     if (!job->stats)
         return true;
-    if (job->resume && !resume_trim_stats(&request, job->there, job->error, sizeof job->error))
+    if (job->resume && !job->task && !resume_trim_stats(&request, job->there, job->error, sizeof job->error))
         return fail(job);
-    snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
+    if (job->task)
+        snprintf(path, sizeof path, "%s/farm/stats.%s.jsonl", job->directory, job->task);
+    else
+        snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
     job->stats_open =
         jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error, sizeof job->error);
     return job->stats_open || fail(job);
@@ -342,6 +354,37 @@ static bool step_preroll(render_job *job)
     return !s->preroll;
 }
 
+/* Draws a frame, if no other task does. False: failed. */
+static bool write_claimed(render_job *job, uint32_t frame, const char **left_out)
+{
+    claim taken;
+    if (!job->task)
+        return write_frame(job, frame);
+    switch (claim_take(job->directory, job->task, frame, &taken, job->error, sizeof job->error)) {
+    case CLAIM_ERROR: return false;
+    case CLAIM_THERE: *left_out = "(there already)"; return true;
+    case CLAIM_BUSY: *left_out = "(another task draws it)"; return true;
+    case CLAIM_FAILED:
+        *left_out = "(failed three times)";
+        job->gave_up++;
+        return true;
+    case CLAIM_TAKEN: break;
+    }
+    const bool written = write_frame(job, frame);
+    claim_release(job->directory, frame, &taken, !written);
+    return written;
+}
+
+/* The frames that this task has finished are whole; others may still be drawn. */
+static int end_frames(const render_job *job)
+{
+    if (!job->gave_up)
+        return EXIT_OK;
+    options_complain("render", "%u frames that failed %d times are missing; see virga farm --status %s", job->gave_up,
+                     CLAIM_MAX_FAILURES, job->directory);
+    return EXIT_GAVE_UP;
+}
+
 static int render_frames(render_job *job)
 {
     progress bar;
@@ -359,14 +402,15 @@ static int render_frames(render_job *job)
             start_from_checkpoint(job, frame); /* after a gap of frames that are there */
         const bool stepped = step_before(job, frame);
         const bool stop = stepped && interrupt_requested();
-        if (stop || !stepped || !write_frame(job, frame)) {
+        const char *left_out = NULL;
+        if (stop || !stepped || !write_claimed(job, frame, &left_out)) {
             progress_end(&bar);
             return stop ? stop_interrupted(job, frame) : stop_failed(job);
         }
-        progress_step(&bar, NULL);
+        progress_step(&bar, left_out);
     }
     progress_end(&bar);
-    return EXIT_OK;
+    return end_frames(job);
 }
 
 /* ---- the film */
@@ -429,6 +473,10 @@ static int render_scene(render_job *job)
     int code = make_directory(job);
     if (code != EXIT_OK)
         return code;
+    if (job->task && !claims_open(job->directory, job->error, sizeof job->error)) {
+        fail(job);
+        return EXIT_FAILED;
+    }
     if (job->resume && !resume_find(&request, &job->there, job->error, sizeof job->error)) {
         fail(job);
         return EXIT_USAGE;
@@ -445,7 +493,7 @@ static int render_scene(render_job *job)
         code = render_frames(job);
     }
     shot_close(&job->shot);
-    if (code == EXIT_OK && job->preview && job->frames[1] > job->frames[0])
+    if (code == EXIT_OK && job->preview && !job->task && job->frames[1] > job->frames[0])
         make_film(job);
     return code;
 }
