@@ -270,7 +270,7 @@ static const struct {
     {"window", "FILE.png", "save the window with the panel", 1, 1, do_window},
     {"save", "FILE.yaml", "save the changed scene", 1, 1, do_save},
     {"camera", "X Y Z YAW PITCH", "move the camera (metres, degrees; 0 0 looks along -Z)", 5, 5, do_camera},
-    {"focus", "X Y", "focus on what is there in the picture: shares of its width and height", 2, 2, do_focus},
+    {"focus", "X Y", "focus on that point: shares of width and height", 2, 2, do_focus},
     {"path", "", "back to the scene's camera path", 0, 0, do_path},
     {"pause", "", "stop time", 0, 0, do_pause},
     {"play", "", "continue", 0, 0, do_play},
