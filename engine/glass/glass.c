@@ -161,7 +161,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
     counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
-    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (6 + VIRGA_GLASS_QUAD_WORDS) * (VkDeviceSize)def->max_drops;
+    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (3 + VIRGA_GLASS_QUAD_WORDS) * (VkDeviceSize)def->max_drops;
     counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;
     counts[COUNT_MAP_COLUMNS] = sizes.max_columns;
     counts[COUNT_MAP_ROWS] = sizes.max_rows;

@@ -365,7 +365,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
         record_balls(glass, cmd);
         record_height_map(glass, cmd);
     }
-    if (view->color.view)
+    if (view->color.view && !glass_keeps_textures(glass, block))
         record_copies(glass, cmd, view);
     if (glass_is_textured(&glass->settings))
         glass_record_textures(glass, cmd, block);

@@ -127,6 +127,8 @@ bool glass_is_all_textured(const virga_glass_settings *settings);
 bool glass_is_textured(const virga_glass_settings *settings);
 /* Fills what the passes need to know of textures, and chooses those that this prepare makes. */
 void glass_fill_textures(virga_glass *glass, glass_view_block *block);
+/* Whether this prepare makes no texture, because what is behind the pane is as before: nor copies of the plate then. */
+bool glass_keeps_textures(const virga_glass *glass, const glass_view_block *block);
 /* Records the passes that make textures and quads. The descriptor set is bound. */
 void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_view_block *block);
 

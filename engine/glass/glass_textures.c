@@ -107,6 +107,11 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
         look->texel_m[0] = look->texel_m[1] = fmaxf(glass->def.width_m, glass->def.height_m);
 }
 
+bool glass_keeps_textures(const virga_glass *glass, const glass_view_block *block)
+{
+    return glass_is_textured(&glass->settings) && glass->settings.still_behind && !block->look.textures;
+}
+
 void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_view_block *block)
 {
     virga_context *context = glass->base.context;

@@ -27,10 +27,9 @@ static inline size_t texture_bytes(const textured *t)
     return texture_texels(t) * 4 * sizeof(float);
 }
 
-/* Drops are as high as they are, but the pane does not reflect. */
-static inline void open_textures(textured *t, uint32_t points, uint32_t texels)
+static inline void open_textures_of(textured *t, const virga_glass_def *given, uint32_t points, uint32_t texels)
 {
-    virga_glass_def def = shot_def();
+    virga_glass_def def = *given;
     memset(t, 0, sizeof *t);
     def.texture_columns = def.texture_rows = points;
     def.texture_texels = texels;
@@ -41,6 +40,12 @@ static inline void open_textures(textured *t, uint32_t points, uint32_t texels)
     REQUIRE(host_buffer_create(&t->shot.gpu.device, texture_texels(t) * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                HOST_BUFFER_READBACK, "textures down", &t->download, t->shot.gpu.error,
                                sizeof t->shot.gpu.error));
+}
+
+static inline void open_textures(textured *t, uint32_t points, uint32_t texels)
+{
+    const virga_glass_def def = shot_def();
+    open_textures_of(t, &def, points, texels);
 }
 
 static inline void close_textures(textured *t)

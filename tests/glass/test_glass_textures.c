@@ -309,6 +309,87 @@ static void textures_of_a_lost_frame_are_made_again(void **state)
     close_textures(&t);
 }
 
+/* ---- from shapes to textures */
+
+/* A bright sky over a dark street with lamps. */
+static void put_street(shot *s)
+{
+    float *pixels = malloc(16ull * WIDTH * HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        const bool lamp = x % 40 < 6 && y > 60 && y < 66;
+        for (int c = 0; c < 4; c++)
+            pixels[4 * i + c] = c == 3 ? 1 : lamp ? 4.0f - (float)c : y < 80 ? 0.8f : 0.1f;
+    }
+    shot_plate(s, pixels);
+    free(pixels);
+}
+
+/* The camera backs away. Drops of 0.6 to 1 mm: all are larger than 8 px in the first frame and smaller than 5.6 in the
+ * last. */
+static void look_from(shot *s, int frame)
+{
+    const double away = 0.045 * pow(1.02, frame);
+    shot_aim(s, (const double[3]){0.048, 0.032, -away}, (const double[3]){0.048, 0.032, 0}, 40);
+}
+
+static double mean_apart(const float *a, const float *b)
+{
+    double sum = 0;
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++)
+        sum += fabs((double)a[i] - (double)b[i]);
+    return sum / (4 * WIDTH * HEIGHT);
+}
+
+static double largest_apart(const float *a, const float *b)
+{
+    double most = 0;
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++)
+        most = fmax(most, fabs((double)a[i] - (double)b[i]));
+    return most;
+}
+
+enum { ZOOM_FRAMES = 72 };
+
+/* A zoom of 2 % a frame. With the exact drops alone pixels change by so much from frame to frame, on average and at
+ * most; where drops turn into textures on the way they change by no more. */
+static void a_zoom_does_not_show_where_drops_turn_into_textures(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    float *before[2];
+    double mean[2] = {0}, most[2] = {0};
+    virga_glass_def def = shot_def();
+    def.max_texels = 1024;
+    open_textures_of(&t, &def, 11, TEXELS);
+    put_street(s);
+    for (uint32_t k = 0; k < 60; k++)
+        shot_drop(s, 0.034 + 0.003 * (k % 10), 0.024 + 0.003 * (k / 10),
+                  shot_water(s, 0.6e-3 + 0.4e-3 * (double)virga_unit(virga_hash2(k, 3))));
+    s->settings.style = VIRGA_GLASS_STYLE_PHYSICAL;
+    for (int way = 0; way < 2; way++) {
+        before[way] = malloc(16ull * WIDTH * HEIGHT);
+        s->settings.textured_px = way ? 8 : 0;
+        for (int frame = 0; frame < ZOOM_FRAMES; frame++) {
+            look_from(s, frame);
+            draw_and_read_textures(&t);
+            if (frame) {
+                mean[way] = fmax(mean[way], mean_apart(t.pixels, before[way]));
+                most[way] = fmax(most[way], largest_apart(t.pixels, before[way]));
+            }
+            memcpy(before[way], t.pixels, 16ull * WIDTH * HEIGHT);
+        }
+    }
+    const double end = mean_apart(before[0], before[1]);
+    if (!(mean[1] < 1.1 * mean[0] && most[1] < 1.1 * most[0]))
+        fail_msg("from frame to frame %g on average and %g at most; exact %g and %g; at the end %g apart", mean[1],
+                 most[1], mean[0], most[0], end);
+    free(before[0]);
+    free(before[1]);
+    close_textures(&t);
+}
+
 /* ---- the same bits */
 
 /* A frame's pixels, drops on top of each other too; to be freed. */
@@ -364,6 +445,7 @@ int main(void)
         cmocka_unit_test(in_turn_they_end_up_the_same_as_at_once),
         cmocka_unit_test(before_a_photo_they_are_kept_until_the_camera_moves),
         cmocka_unit_test(textures_of_a_lost_frame_are_made_again),
+        cmocka_unit_test(a_zoom_does_not_show_where_drops_turn_into_textures),
         cmocka_unit_test(any_number_of_threads_draws_the_same),
         cmocka_unit_test(a_reversed_depth_draws_the_same),
     };

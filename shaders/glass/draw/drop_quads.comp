@@ -3,8 +3,8 @@
 // Paper: Sato, Dobashi and Yamamoto 2002, section 3.4.
 //
 // A drop is a disc on the picture, or an ellipse where the pane leans: the pane is flat over so short a way. With the
-// Jacobian J of the projection, in pixels per radius, its area is pi |det J|. The quad is a pixel wider on each side,
-// for the soft rim. A drop with a radius of less than half a pixel has no rim: its area is spread over two by two
+// Jacobian J of the projection, in pixels per radius, its area is pi |det J|. The quad is half a pixel wider on each
+// side, for the soft rim. A drop with a radius of less than half a pixel has no rim: its area is spread over two by two
 // pixels, by the distance from its middle, so that it neither flickers nor gains or loses water to the eye.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -46,7 +46,7 @@ virga_glass_quad_gpu quad_at(vec2 middle, float radius_m, vec4 clip, vec4 along_
     const float area = abs(u_px.x * v_px.y - u_px.y * v_px.x), radius_px = sqrt(area);
     const float longest = max(max(length(u_px), length(v_px)), 1e-6);
     const bool point = radius_px < POINT_PX;
-    float size = 1.0 + longest / max(area, 1e-6); // the ellipse is at least area / longest wide
+    float size = 1.0 + 0.5 * longest / max(area, 1e-6); // half the ellipse is at least area / longest wide
     if (point) {
         along_u = vec4(2.0 / view.viewport[2] * clip.w, 0.0, 0.0, 0.0);
         along_v = vec4(0.0, 2.0 / view.viewport[3] * clip.w, 0.0, 0.0);
@@ -73,19 +73,18 @@ void write_quad(uint at, virga_glass_quad_gpu quad)
         corners[at + i] = words[i];
 }
 
-// Two triangles, or with nothing to draw two that are a point.
+// The triangle around the drop; with nothing to draw, one that is a point.
 void write_indices(uint i, bool shown)
 {
-    const uint order[6] = uint[6](0u, 1u, 2u, 2u, 1u, 3u), at = look.quads_offset + 6u * i;
-    for (uint corner = 0u; corner < 6u; corner++)
-        corners[at + corner] = shown ? 4u * i + order[corner] : 0u;
+    for (uint corner = 0u; corner < 3u; corner++)
+        corners[look.quads_offset + 3u * i + corner] = shown ? 3u * i + corner : 0u;
 }
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x, slot = listed[min(i, look.pane.max_drops - 1u)];
     if (i == 0u)
-        work.quads = virga_glass_corners_gpu(6u * state.shown, 1u, look.quads_offset, 0, 0u);
+        work.quads = virga_glass_corners_gpu(3u * state.shown, 1u, look.quads_offset, 0, 0u);
     const virga_glass_drop_gpu drop = drops[slot];
     const uint kind = drop.kind & VIRGA_GLASS_KIND;
     const float radius_m = kind == VIRGA_GLASS_PARTICLE ? look.particle_m : cap_radius(float(drop.water_nl));
@@ -99,7 +98,7 @@ void main()
     const bool shown = kind != VIRGA_GLASS_FREE && alpha > 0.0;
     write_indices(i, shown);
     if (shown)
-        write_quad(look.quads_offset + 6u * look.pane.max_drops + VIRGA_GLASS_QUAD_WORDS * i,
+        write_quad(look.quads_offset + 3u * look.pane.max_drops + VIRGA_GLASS_QUAD_WORDS * i,
                    quad_at(middle, radius_m, clip, clip_of_pane(pane.along_u, 0.0) * radius_m,
                            clip_of_pane(pane.along_v, 0.0) * radius_m, alpha));
 }
