@@ -33,6 +33,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, texture_columns, 2, 32, 11, .look = true),
     DEF(U32, texture_rows, 2, 32, 11, .look = true),
     DEF(U32, texture_texels, 8, 64, 16, .look = true),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
 };
 /* clang-format on */
@@ -220,9 +221,10 @@ static const virga_effect_buffer buffers[] = {
     {"glass.tiles", AT(picture.tiles), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
     {"glass.entries", AT(picture.entries), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_ENTRIES},
     {"glass.mist", AT(picture.mist), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_MIST},
-    {"glass.written", AT(picture.written), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_TILES},
-    {"glass.work", AT(picture.work), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_work_gpu), 4, COUNT_WORK},
-    {"glass.corners", AT(picture.corners), VIRGA_USE_INDEX, DEVICE, 0, 4, COUNT_CORNERS},
+    {"glass.written", AT(picture.written), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_TILES, .per_view = true},
+    {"glass.work", AT(picture.work), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_work_gpu), 4, COUNT_WORK,
+     .per_view = true},
+    {"glass.corners", AT(picture.corners), VIRGA_USE_INDEX, DEVICE, 0, 4, COUNT_CORNERS, .per_view = true},
 };
 
 static const virga_effect_ring rings[] = {
@@ -240,17 +242,18 @@ static const virga_effect_ring rings[] = {
  * texel were NaN, the result would be NaN even with a weight of 0. */
 static const virga_effect_image images[] = {
     {"glass.relief", AT(picture.relief), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, CLEARED_USE | WRITTEN_USE | READ_BACK,
-     COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
+     COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL, .per_view = true},
     {"glass.map", AT(picture.map), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS,
-     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
+     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"glass.paper_map", AT(picture.paper_map), VK_FORMAT_R32_UINT, COLOR, WRITTEN_USE, COUNT_MAP_COLUMNS,
-     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
+     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"glass.copies", AT(picture.copies), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, CLEARED_USE | WRITTEN_USE | READ_BACK,
-     COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
+     COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL, .per_view = true},
     {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR, CLEARED_USE, COUNT_MIST_COLUMNS,
-     COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE},
+     COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"glass.textures", AT(picture.textures), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR,
-     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, true},
+     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, .keeps = true,
+     .per_view = true},
     BLANK_DEPTH("glass.blank_depth", picture.blank_depth),
     BLANK_COLOR("glass.blank_color", picture.blank_color),
 };
@@ -394,7 +397,7 @@ static const virga_effect_state_row state_rows[] = {
 /* The height map is of the state before the load. */
 static void state_loaded(void *object)
 {
-    ((virga_glass *)object)->picture.has_written = false;
+    glass_picture_forget(object);
 }
 
 VIRGA_EFFECT_FUNCTIONS(glass)

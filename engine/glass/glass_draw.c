@@ -226,11 +226,11 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
  * the style, because each style has its own images. */
 static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
 {
-    struct glass_picture *picture = &glass->picture;
-    glass->base.context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
+    glass_prepared *seen = &glass->picture.prepared[glass->base.slot];
+    glass->base.context->vk.CmdFillBuffer(cmd, glass->picture.written->buffer, 0, VK_WHOLE_SIZE,
                                           VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
-    picture->written_style = glass->settings.style;
-    picture->has_written = true;
+    seen->written_style = glass->settings.style;
+    seen->has_written = true;
     glass->base.journal.doing |= GLASS_DID_UNWRITTEN;
 }
 
@@ -257,8 +257,9 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
+    const glass_prepared *seen = &picture->prepared[glass->base.slot];
     if (!glass_is_all_textured(&glass->settings) &&
-        (!picture->has_written || picture->written_style != glass->settings.style))
+        (!seen->has_written || seen->written_style != glass->settings.style))
         record_unwritten(glass, cmd);
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
@@ -328,10 +329,10 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
     virga_pass_end(context, cmd, scope);
 }
 
-static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set,
+                 uint32_t view_offset)
 {
-    const struct glass_picture *picture = &glass->picture;
-    virga_bind(glass->base.context, cmd, point, picture->bindings, set, 1, &picture->view_offset);
+    virga_bind(glass->base.context, cmd, point, glass->picture.bindings, set, 1, &view_offset);
 }
 
 /* Makes the height map, with the slopes that the draws read, and lists the tiles to draw. */
@@ -359,7 +360,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     virga_context *context = glass->base.context;
     const struct glass_picture *picture = &glass->picture;
     record_clear(glass, cmd);
-    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, picture->view_offset);
     record_film(glass, cmd);
     if (!glass_is_all_textured(&glass->settings)) {
         record_balls(glass, cmd);
@@ -371,9 +372,9 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
         glass_record_textures(glass, cmd, block);
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES,
                VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS);
-    virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_PREPARE, picture->work,
-                                 offsetof(virga_glass_work_gpu, shaped), offsetof(glass_readback, balls),
-                                 2 * sizeof(uint32_t));
+    virga_effect_copy_statistics(
+        &glass->base, cmd, GLASS_PART_PREPARE, picture->work, offsetof(virga_glass_work_gpu, shaped),
+        offsetof(glass_readback, prepared[virga_effect_view_index(&glass->base)]), 2 * sizeof(uint32_t));
 }
 
 /* Checks that the gather passes of this pane's density and blend are built. */
@@ -432,6 +433,14 @@ static uint32_t draw_of(const virga_glass *glass, const virga_view *view, const 
 virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
                                  const virga_glass_pose *pose, double time_s)
 {
+    return virga_glass_prepare_view(glass, cmd, view, pose, time_s, NULL);
+}
+
+virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                      const virga_glass_pose *pose, double time_s, virga_prepared *prepared)
+{
+    if (prepared)
+        *prepared = 0;
     if (!glass)
         return VIRGA_ERROR_INVALID;
     virga_context *context = glass->base.context;
@@ -457,12 +466,13 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
         return result;
     const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
     record_prepare(glass, cmd, view, &block, set);
-    virga_effect_set_view(&glass->base, set, view);
-    picture->prepared_draw = draw_of(glass, view, pose);
-    picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
-    picture->prepared_style = glass->settings.style;
-    picture->prepared_shapes = !glass_is_all_textured(&glass->settings);
-    picture->prepared_textures = glass_is_textured(&glass->settings);
+    virga_effect_set_view(&glass->base, set, picture->view_offset, view, prepared);
+    glass_prepared *seen = &picture->prepared[glass->base.slot];
+    seen->draw = draw_of(glass, view, pose);
+    seen->plate = view->color.view != VK_NULL_HANDLE;
+    seen->style = glass->settings.style;
+    seen->shapes = !glass_is_all_textured(&glass->settings);
+    seen->textures = glass_is_textured(&glass->settings);
     return virga_check_uploads(context);
 }
 
@@ -471,9 +481,10 @@ void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
     if (!map)
         return;
     *map = (virga_glass_map){0};
-    if (glass && glass->picture.whole_map && glass->picture.columns)
-        *map = (virga_glass_map){glass->picture.map->layer_views[0], glass->picture.map->image, glass->picture.columns,
-                                 glass->picture.rows};
+    if (!glass || !glass->picture.whole_map || !glass->picture.columns)
+        return;
+    const virga_image_2d *image = glass->picture.map_of_view[glass->base.newest_slot];
+    *map = (virga_glass_map){image->layer_views[0], image->image, glass->picture.columns, glass->picture.rows};
 }
 
 /* ---- draw */
@@ -515,30 +526,31 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
 
 static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_set_draw_area(glass->base.context, cmd, glass->base.view.viewport);
-    bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, glass->base.view.set);
+    const virga_effect_view *view = virga_effect_selected(&glass->base);
+    virga_set_draw_area(glass->base.context, cmd, view->viewport);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
     glass->base.context->vk.CmdBindIndexBuffer(cmd, glass->picture.corners->buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
 /* The draws of a pane, in this order. */
 enum { DRAW_MIST, DRAW_SHAPES, DRAW_TEXTURED, DRAWS };
 
-/* The pipelines for the newest prepare; NULL: nothing to draw. */
-static void choose_draws(const struct glass_picture *picture, const virga_effect_target *found, bool refraction,
+/* The pipelines for a view; NULL: nothing to draw. */
+static void choose_draws(const glass_prepared *seen, const virga_effect_target *found, bool refraction,
                          const virga_pipeline *used[DRAWS])
 {
-    const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
-    const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
-    const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
-    const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
+    const uint32_t depth = seen->draw & VIRGA_GLASS_DRAW_DEPTH;
+    const uint32_t plate = seen->plate ? GLASS_DRAW_OF_PLATE : 0;
+    const bool paper = seen->style == VIRGA_GLASS_STYLE_PAPER;
+    const bool opaque = (seen->draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
     const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
     const uint32_t shapes = refraction ? GLASS_DRAW_REFRACTION + depth + (paper ? GLASS_DRAW_OF_PAPER : 0)
                             : paper    ? GLASS_DRAW_PAPER + depth + plate
-                                       : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
+                                       : GLASS_DRAW_PHYSICAL + seen->draw;
     const uint32_t textured = (refraction ? GLASS_DRAW_TEXTURED_REFRACTION : GLASS_DRAW_TEXTURED) + depth;
     used[DRAW_MIST] = refraction ? NULL : found->draws[GLASS_DRAW_MIST + solid + plate + depth];
-    used[DRAW_SHAPES] = picture->prepared_shapes ? found->draws[shapes] : NULL;
-    used[DRAW_TEXTURED] = picture->prepared_textures ? found->draws[textured] : NULL;
+    used[DRAW_SHAPES] = seen->shapes ? found->draws[shapes] : NULL;
+    used[DRAW_TEXTURED] = seen->textures ? found->draws[textured] : NULL;
 }
 
 static virga_result draws_ready(const virga_pipeline *const used[DRAWS])
@@ -549,20 +561,18 @@ static virga_result draws_ready(const virga_pipeline *const used[DRAWS])
     return result;
 }
 
-static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
-                         const char *call)
+static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                         bool refraction, const char *call)
 {
-    if (!glass)
-        return VIRGA_ERROR_INVALID;
     virga_context *context = glass->base.context;
-    const struct glass_picture *picture = &glass->picture;
     const virga_effect_target *found;
-    virga_result result = virga_effect_check_draw(
-        &glass->base, call, cmd, target, glass->ticks ? virga_effect_ready(&glass->base) : VIRGA_NOT_READY, &found);
+    virga_result result =
+        virga_effect_check_draw(&glass->base, call, cmd, target, prepared,
+                                glass->ticks ? virga_effect_ready(&glass->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
     const virga_pipeline *used[DRAWS];
-    choose_draws(picture, found, refraction, used);
+    choose_draws(&glass->picture.prepared[glass->base.slot], found, refraction, used);
     result = draws_ready(used);
     if (result)
         return result;
@@ -577,12 +587,20 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     return VIRGA_OK;
 }
 
-virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target)
+virga_result glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                        const char *call)
 {
-    return draw(glass, cmd, target, false, "virga_glass_draw");
+    return draw(glass, cmd, target, prepared, false, call);
 }
 
 virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target)
 {
-    return draw(glass, cmd, target, true, "virga_glass_draw_refraction");
+    return glass ? draw(glass, cmd, target, virga_effect_newest(&glass->base), true, "virga_glass_draw_refraction")
+                 : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_glass_draw_refraction_view(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target,
+                                              virga_prepared prepared)
+{
+    return glass ? draw(glass, cmd, target, prepared, true, "virga_glass_draw_refraction_view") : VIRGA_ERROR_INVALID;
 }

@@ -33,8 +33,10 @@ static inline float glass_min_grid_m(const virga_glass_def *def)
 
 /* The data that is read back for one frame. */
 typedef struct glass_readback {
-    virga_glass_state_gpu state;          /* written by the step */
-    uint32_t balls, ball_entries_dropped; /* written by the prepare, as in virga_glass_work_gpu */
+    virga_glass_state_gpu state; /* written by the step */
+    struct {
+        uint32_t balls, ball_entries_dropped; /* as in virga_glass_work_gpu */
+    } prepared[VIRGA_MAX_VIEWS];              /* written by the prepares */
 } glass_readback;
 
 enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* parts of the statistics */

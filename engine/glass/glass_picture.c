@@ -205,6 +205,12 @@ virga_result glass_picture_use_lanes(virga_glass *glass, uint32_t lanes)
     return result ? result : glass_picture_need(glass, &glass->settings);
 }
 
+void glass_picture_forget(virga_glass *glass)
+{
+    for (uint32_t i = 0; i < VIRGA_MAX_VIEWS; i++)
+        glass->picture.prepared[i].has_written = glass->picture.prepared[i].has_textures = false;
+}
+
 void glass_picture_destroy(virga_glass *glass)
 {
     retire_gathers(glass->base.context, &glass->picture);

@@ -54,19 +54,42 @@ typedef struct glass_view_block {
     virga_glass_picture_gpu look;
 } glass_view_block;
 
+/* What is known of each view besides virga_effect_view. */
+typedef struct glass_prepared {
+    bool has_written;                /* `written` is valid for every tile */
+    virga_glass_style written_style; /* the style for which `written` is valid */
+
+    bool has_textures;              /* all textures were made for some view */
+    glass_view_block textures_view; /* of the newest prepare: what textures depend on */
+    uint32_t next_texture;          /* the one whose turn it is */
+    uint32_t late_textures;         /* those that do not show that view yet */
+
+    /* Of its newest prepare. */
+    bool plate;
+    uint32_t draw; /* VIRGA_GLASS_DRAW_... */
+    virga_glass_style style;
+    bool shapes, textures; /* drops are drawn from the height map; as textures */
+} glass_prepared;
+
 struct glass_picture {
     uint32_t max_columns, max_rows;           /* texels of the height map */
     uint32_t max_tile_columns, max_tile_rows; /* tiles of the height map */
     uint32_t max_entries;
     VkExtent2D max_mist; /* texels of the mist map, whole blocks */
-    virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners;
+    virga_buffer *balls, *tiles, *entries, *mist;
+    VIRGA_PER_VIEW(virga_buffer, written);
+    VIRGA_PER_VIEW(virga_buffer, work);
+    VIRGA_PER_VIEW(virga_buffer, corners);
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest view */
-    virga_image_2d *map;
-    bool whole_map;            /* the host reads the map: it is also written where there is only mist */
-    virga_image_2d *paper_map; /* input of the draws in the paper style, see shaders/glass/draw/paper_texel.glsl */
-    virga_image_2d *relief;    /* input of the draws in other styles */
-    virga_image_2d *copies, *mist_map, *textures;
+    VIRGA_PER_VIEW(virga_image_2d, map);
+    bool whole_map; /* the host reads the map: it is also written where there is only mist */
+    /* Inputs of the draws: in the paper style, see shaders/glass/draw/paper_texel.glsl, and in other styles. */
+    VIRGA_PER_VIEW(virga_image_2d, paper_map);
+    VIRGA_PER_VIEW(virga_image_2d, relief);
+    VIRGA_PER_VIEW(virga_image_2d, copies);
+    VIRGA_PER_VIEW(virga_image_2d, mist_map);
+    VIRGA_PER_VIEW(virga_image_2d, textures);
     bool filtered;                             /* the device can filter the relief */
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_bindings *bindings;
@@ -77,22 +100,13 @@ struct glass_picture {
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];              /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS];  /* by GLASS_GATHER_... bits; NULL: not needed yet */
-    uint32_t lanes;                  /* of a subgroup that exchanges values by shuffles; 0: by shared memory */
-    bool has_written;                /* `written` is valid for every tile */
-    virga_glass_style written_style; /* the style for which `written` is valid */
+    uint32_t lanes; /* of a subgroup that exchanges values by shuffles; 0: by shared memory */
 
-    bool has_textures;              /* all textures were made for some view */
-    glass_view_block textures_view; /* of the newest prepare: what textures depend on */
-    uint32_t next_texture;          /* the one whose turn it is */
-    uint32_t late_textures;         /* those that do not show that view yet */
-    uint32_t view_index;            /* of the newest prepare in its frame */
+    uint32_t view_index; /* of the newest prepare in its frame */
 
-    bool prepared_plate;
-    uint32_t prepared_draw; /* VIRGA_GLASS_DRAW_... */
-    virga_glass_style prepared_style;
-    bool prepared_shapes, prepared_textures; /* drops are drawn from the height map; as textures */
-    uint32_t columns, rows;                  /* texels of the height map that the newest prepare uses */
-    VkExtent2D mist_size;                    /* the same of the mist map */
+    glass_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
+    uint32_t columns, rows;                   /* texels of the height map that the newest prepare uses */
+    VkExtent2D mist_size;                     /* the same of the mist map */
     uint32_t mist_cells;
     bool beads; /* beads of film may be drawn as drops in this view */
 };
@@ -118,6 +132,9 @@ uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settin
 /* Writes the descriptor set of a view of this frame. */
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
 
+/* All tiles and textures of all views hold unknown contents. */
+void glass_picture_forget(virga_glass *glass);
+
 /* ---- glass_textures.c */
 
 /* A side of a texture: the next power of two. */
@@ -135,6 +152,8 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
 /* ---- glass_draw.c */
 extern const virga_effect_draw glass_draws[GLASS_DRAW_ROWS];
 uint32_t glass_draw_constant(const void *glass);
+virga_result glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                        const char *call);
 
 /* Fills the pane's motion since the previous frame. look->world_from_pane must be filled. In glass_temporal.c. */
 void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look);

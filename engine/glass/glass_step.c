@@ -48,29 +48,33 @@ static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_gla
     stats->particles_waiting = state->particles_waiting;
 }
 
+static void read_views(virga_glass_stats *stats, uint32_t views, const glass_readback *read)
+{
+    stats->views = views;
+    for (uint32_t i = 0; i < VIRGA_MAX_VIEWS; i++)
+        stats->view_balls[i] = i < views ? read->prepared[i].balls : 0;
+    stats->balls = read->prepared[views - 1].balls;
+    stats->ball_entries_dropped = read->prepared[views - 1].ball_entries_dropped;
+}
+
 /* A frame may have a prepare without a step, or a step without a prepare: `parts` has a bit for each. */
 void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
-    (void)ring_slot;
     virga_glass_stats *stats = &((virga_glass *)object)->stats;
     glass_readback read;
     memcpy(&read, data, sizeof read);
     if (parts & 1u << GLASS_PART_STEP)
         read_state(stats, frame, &read.state);
-    if (parts & 1u << GLASS_PART_PREPARE) {
-        stats->balls = read.balls;
-        stats->ball_entries_dropped = read.ball_entries_dropped;
-    }
+    if (parts & 1u << GLASS_PART_PREPARE)
+        read_views(stats, ((virga_glass *)object)->base.readback_views[ring_slot], &read);
 }
 
 void glass_lost(void *object, uint64_t frame, uint32_t did)
 {
     virga_glass *glass = object;
     (void)frame;
-    if (did & GLASS_DID_UNWRITTEN)
-        glass->picture.has_written = false;
-    if (did & GLASS_DID_TEXTURES)
-        glass->picture.has_textures = false;
+    if (did & (GLASS_DID_UNWRITTEN | GLASS_DID_TEXTURES))
+        glass_picture_forget(glass);
 }
 
 /* ---- from the world to the pane's frame */
@@ -535,7 +539,7 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     glass->step_set = glass_write_set(glass);
     glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
     if (virga_effect_first_contents(&glass->base, cmd))
-        glass->picture.has_written = false; /* the images may have lost their contents */
+        glass_picture_forget(glass); /* the images may have lost their contents */
     upload_shape(glass, cmd);
     if (info->ticks)
         record_ticks(glass, cmd, info);

@@ -63,28 +63,29 @@ static bool same_kind(const virga_glass_picture_gpu *a, const virga_glass_pictur
            a->thickness_m == b->thickness_m && a->gain == b->gain && a->hemispheres == b->hemispheres;
 }
 
-/* Chooses the textures that this prepare makes: those that are late, in turn. Several views of one frame share the
- * textures, so each of them makes all. */
+/* Chooses the textures that this prepare makes: those that are late, in turn. Where a frame has more than max_views
+ * views, some share the textures, so each of them makes all. */
 static void choose_textures(virga_glass *glass, glass_view_block *block)
 {
     struct glass_picture *picture = &glass->picture;
+    glass_prepared *seen = &picture->prepared[glass->base.slot];
     const virga_glass_settings *s = &glass->settings;
     const uint32_t count = texture_count(glass), index = virga_ring_used(glass->base.context, &picture->view_ring);
-    const bool alone = index == 0 && picture->view_index == 0;
+    const bool alone = index < glass->base.max_views && picture->view_index < glass->base.max_views;
     glass_view_block kept;
     fill_kept(block, &kept);
-    const bool all = !picture->has_textures || !alone || !s->textures_per_frame ||
-                     !same_kind(&kept.look, &picture->textures_view.look);
-    if (!picture->has_textures || !alone || !s->still_behind || memcmp(&kept, &picture->textures_view, sizeof kept))
-        picture->late_textures = count;
+    const bool all =
+        !seen->has_textures || !alone || !s->textures_per_frame || !same_kind(&kept.look, &seen->textures_view.look);
+    if (!seen->has_textures || !alone || !s->still_behind || memcmp(&kept, &seen->textures_view, sizeof kept))
+        seen->late_textures = count;
     block->look.textures =
-        all || s->textures_per_frame > picture->late_textures ? picture->late_textures : s->textures_per_frame;
-    block->look.first_texture = picture->next_texture;
-    picture->next_texture = (picture->next_texture + block->look.textures) % count;
-    picture->late_textures -= block->look.textures;
+        all || s->textures_per_frame > seen->late_textures ? seen->late_textures : s->textures_per_frame;
+    block->look.first_texture = seen->next_texture;
+    seen->next_texture = (seen->next_texture + block->look.textures) % count;
+    seen->late_textures -= block->look.textures;
     picture->view_index = index;
-    picture->textures_view = kept;
-    picture->has_textures = true;
+    seen->textures_view = kept;
+    seen->has_textures = true;
 }
 
 void glass_fill_textures(virga_glass *glass, glass_view_block *block)
@@ -92,7 +93,7 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
     const virga_glass_settings *s = &glass->settings;
     virga_glass_picture_gpu *look = &block->look;
     if (!glass_is_textured(s)) {
-        glass->picture.has_textures = false;
+        glass->picture.prepared[glass->base.slot].has_textures = false;
         return;
     }
     look->textured_px = glass_is_all_textured(s) ? GLASS_ALL_TEXTURED : s->textured_px;

@@ -53,6 +53,7 @@ struct virga_context {
     VkSampler nearest, linear;      /* clamped to the edge */
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */
+    uint32_t effect_serial;         /* of the newest effect */
     struct virga_effect *first_effect;
     virga_target *first_target;
     struct virga_target_class *first_target_class;

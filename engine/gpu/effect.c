@@ -35,6 +35,12 @@ static VkDeviceSize buffer_bytes(const virga_effect_buffer *row, const effect_co
     return row->head + row->entry * counts[row->count];
 }
 
+static uint32_t views_of(const virga_effect_type *type, const void *def)
+{
+    const uint32_t *views = (const void *)((const char *)def + type->max_views);
+    return type->max_views ? *views : 1;
+}
+
 static VkDeviceSize ring_bytes(const virga_effect_ring *row, const effect_counts counts, uint32_t frames)
 {
     return row->block * counts[row->count] * frames;
@@ -113,13 +119,14 @@ VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *gi
     if (!given || check_def(NULL, type, given, def))
         return 0;
     fill_counts(type, def, counts);
+    const uint32_t views = views_of(type, def);
     VkDeviceSize sum = VIRGA_JOURNAL_BYTES + (VkDeviceSize)type->readback_bytes * VIRGA_MAX_FRAMES_IN_FLIGHT;
     for (uint32_t i = 0; i < type->buffer_count; i++)
-        sum += buffer_bytes(&type->buffers[i], counts);
+        sum += buffer_bytes(&type->buffers[i], counts) * (type->buffers[i].per_view ? views : 1);
     for (uint32_t i = 0; i < type->ring_count; i++)
         sum += ring_bytes(&type->rings[i], counts, VIRGA_MAX_FRAMES_IN_FLIGHT);
     for (uint32_t i = 0; i < type->image_count; i++)
-        sum += image_bytes(&type->images[i], counts);
+        sum += image_bytes(&type->images[i], counts) * (type->images[i].per_view ? views : 1);
     return sum + (type->extra_bytes ? type->extra_bytes(def) : 0);
 }
 
@@ -133,9 +140,9 @@ static virga_result create_buffers(virga_effect *effect, const effect_counts cou
     for (uint32_t i = 0; i < type->buffer_count; i++) {
         const virga_effect_buffer *row = &type->buffers[i];
         const VkDeviceSize size = buffer_bytes(row, counts);
-        if (size)
+        for (uint32_t k = 0; size && k < virga_effect_copies(effect, row->per_view); k++)
             TRY(virga_buffer_create(context, size, row->usage, row->heap, row->name,
-                                    virga_effect_member(effect, row->member)));
+                                    virga_effect_copy(effect, row->member, row->per_view, k)));
     }
     for (uint32_t i = 0; i < type->ring_count; i++) {
         const virga_effect_ring *row = &type->rings[i];
@@ -160,9 +167,10 @@ static virga_result create_images(virga_effect *effect, const effect_counts coun
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
         const VkExtent2D extent = {(uint32_t)counts[row->width], (uint32_t)counts[row->height]};
-        if (extent.width && extent.height)
+        const bool wanted = extent.width && extent.height;
+        for (uint32_t k = 0; wanted && k < virga_effect_copies(effect, row->per_view); k++)
             TRY(virga_image_create(effect->context, row->format, extent, row->layers, row->usage, row->aspect,
-                                   row->name, virga_effect_member(effect, row->member)));
+                                   row->name, virga_effect_copy(effect, row->member, row->per_view, k)));
     }
 error:
     return result;
@@ -219,10 +227,12 @@ static virga_result init(virga_effect *effect)
     if (type->fit_device)
         fitted = type->fit_device(effect->context, virga_effect_member(effect, type->def.member));
     fill_counts(type, def_of(effect), counts);
+    effect->max_views = views_of(type, def_of(effect));
     if (type->init)
         TRY(type->init(effect));
     TRY(create_buffers(effect, counts));
     TRY(create_images(effect, counts));
+    virga_effect_select(effect, 0);
     TRY(create_layouts(effect));
     TRY(virga_effect_create_fills(effect));
     if (type->create)
@@ -243,6 +253,7 @@ static virga_result make(virga_context *context, const virga_effect_type *type, 
     effect->context = context;
     memcpy(virga_effect_member(effect, type->def.member), def, type->def.size);
     virga_effect_default_settings(type, virga_effect_member(effect, type->settings.member));
+    effect->serial = ++context->effect_serial;
     effect->next_effect = context->first_effect;
     context->first_effect = effect;
     context->effects++;
@@ -309,8 +320,11 @@ static void retire_rows(virga_effect *effect)
     const virga_effect_type *type = effect->type;
     virga_context *context = effect->context;
     for (uint32_t i = 0; i < type->buffer_count; i++) {
-        virga_buffer **buffer = virga_effect_member(effect, type->buffers[i].member);
-        VIRGA_RETIRE(context, *buffer);
+        const virga_effect_buffer *row = &type->buffers[i];
+        for (uint32_t k = 0; k < virga_effect_copies(effect, row->per_view); k++) {
+            virga_buffer **buffer = virga_effect_copy(effect, row->member, row->per_view, k);
+            VIRGA_RETIRE(context, *buffer);
+        }
     }
     for (uint32_t i = 0; i < type->ring_count; i++) {
         virga_ring *ring = virga_effect_member(effect, type->rings[i].member);
@@ -321,8 +335,11 @@ static void retire_rows(virga_effect *effect)
     VIRGA_RETIRE(context, effect->fill_pass);
     VIRGA_RETIRE(context, effect->fill_bindings);
     for (uint32_t i = 0; i < type->image_count; i++) {
-        virga_image_2d **image = virga_effect_member(effect, type->images[i].member);
-        VIRGA_RETIRE(context, *image);
+        const virga_effect_image *row = &type->images[i];
+        for (uint32_t k = 0; k < virga_effect_copies(effect, row->per_view); k++) {
+            virga_image_2d **image = virga_effect_copy(effect, row->member, row->per_view, k);
+            VIRGA_RETIRE(context, *image);
+        }
     }
     for (uint32_t i = 0; i < type->layout_count; i++) {
         virga_bindings **layout = virga_effect_member(effect, type->layouts[i].member);

@@ -37,6 +37,10 @@
 #define VIRGA_USE_INDEX    (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_INDEX_BUFFER_BIT)
 #define VIRGA_USE_UNIFORM  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
 
+/* A buffer or image of which each view has its own, so that several prepared views live in one frame. `name` is the one
+ * of the selected view (virga_effect_select); those of all views are behind it. */
+#define VIRGA_PER_VIEW(type, name) type *name, *name##_of_view[VIRGA_MAX_VIEWS]
+
 /* The contents of a buffer or image before the first pass. See virga_effect_first_contents. */
 typedef enum virga_first {
     VIRGA_FIRST_ANYTHING, /* (buffers) undefined: passes write before they read */
@@ -58,6 +62,7 @@ typedef struct virga_effect_buffer {
     uint32_t word, word_value; /* (FILL) one word that differs: its index and its value; 0: none differs */
     bool keeps;                /* (ANYTHING) later steps read it before they write it: it is part of the state */
     bool scratch;              /* (FILL) no later step reads it: it is no part of the state */
+    bool per_view;             /* each view has its own; the member is a VIRGA_PER_VIEW. It is no part of the state */
 } virga_effect_buffer;
 
 /* Blocks that the host writes while it records, and that passes read at a dynamic offset: counts[count] blocks for each
@@ -80,7 +85,8 @@ typedef struct virga_effect_image {
     uint32_t width, height; /* indices of counts */
     uint32_t layers;        /* 0: a 3D image of depth 1 */
     virga_first first;
-    bool keeps; /* passes do not write it anew in every frame: it is part of the state, and in the layout GENERAL */
+    bool keeps;    /* passes do not write it anew in every frame: it is part of the state, and in the layout GENERAL */
+    bool per_view; /* as in virga_effect_buffer */
 } virga_effect_image;
 
 /* A descriptor set layout and its pipeline layout. Rows with a source are bound by virga_effect_bound; the effect binds
@@ -164,6 +170,9 @@ typedef struct virga_effect_step {
     float wind_m_s[3];
 } virga_effect_step;
 
+/* The view of the newest prepare, for virga_effect_type.draw. */
+#define VIRGA_PREPARED_NEWEST UINT64_MAX
+
 typedef struct virga_effect_type {
     const char *name;     /* in log lines: "the ground", "a pane" */
     const char *log_name; /* of its settings in log lines */
@@ -188,6 +197,7 @@ typedef struct virga_effect_type {
     uint32_t pool_count;
     const virga_effect_state_row *state_rows;
     uint32_t state_row_count;
+    size_t max_views;          /* offset of a uint32_t in the definition: number of views in a frame; 0: one */
     const char *readback_name; /* name of the buffer for statistics readback */
     uint32_t readback_bytes;   /* per frame; 0: no statistics */
 
@@ -226,10 +236,12 @@ typedef struct virga_effect_type {
     /* (optional) Applies new settings, while the object still has the old ones. An error leaves those in force. */
     virga_result (*apply_settings)(void *object, void *settings);
 
-    /* (optional) The public functions of the effect, as a scene calls them. */
+    /* (optional) The public functions of the effect, as a scene calls them. draw: `prepared` may be
+     * VIRGA_PREPARED_NEWEST. */
     virga_result (*step)(void *object, VkCommandBuffer cmd, const virga_effect_step *step);
-    virga_result (*prepare)(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s);
-    virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
+    virga_result (*prepare)(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared);
+    virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared);
 } virga_effect_type;
 
 /* The rows of a definition with ticks, made with its DEF. */
@@ -254,7 +266,8 @@ typedef struct virga_effect_type {
 /* The fields of an effect that draws: the table `images`, <name>_draws, the settings' `lighting`. */
 #define VIRGA_EFFECT_DRAWS(effect)                                                                          \
     VIRGA_TABLE(image), .lighting = offsetof(virga_##effect##_settings, lighting), .draws = effect##_draws, \
-                        .draw_count = VIRGA_ROWS(effect##_draws), .draw = effect##_type_draw
+                        .draw_count = VIRGA_ROWS(effect##_draws), .draw = effect##_type_draw,               \
+                        .max_views = offsetof(virga_##effect##_def, max_views)
 
 /* The public functions that are the same for all effects. They use <name>_type. */
 #define VIRGA_EFFECT_FUNCTIONS(name)                                                                               \
@@ -315,12 +328,28 @@ typedef struct virga_effect_type {
             *stats = object ? object->stats : (virga_##name##_stats){0};             \
     }
 
-/* The same for effects that draw. They use `draw` of the type. */
+/* The public draws of an effect. They use <name>_draw, which draws a prepared view for the public function `call`. */
+#define VIRGA_EFFECT_VIEW_FUNCTIONS(name)                                                                              \
+    virga_result virga_##name##_draw(virga_##name *object, VkCommandBuffer cmd, const virga_target *target)            \
+    {                                                                                                                  \
+        return object ? name##_draw(object, cmd, target, virga_effect_newest(&object->base), "virga_" #name "_draw")   \
+                      : VIRGA_ERROR_INVALID;                                                                           \
+    }                                                                                                                  \
+    virga_result virga_##name##_draw_view(virga_##name *object, VkCommandBuffer cmd, const virga_target *target,       \
+                                          virga_prepared prepared)                                                     \
+    {                                                                                                                  \
+        return object ? name##_draw(object, cmd, target, prepared, "virga_" #name "_draw_view") : VIRGA_ERROR_INVALID; \
+    }                                                                                                                  \
+    static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target,                \
+                                         virga_prepared prepared)                                                      \
+    {                                                                                                                  \
+        return prepared == VIRGA_PREPARED_NEWEST ? virga_##name##_draw(object, cmd, target)                            \
+                                                 : virga_##name##_draw_view(object, cmd, target, prepared);            \
+    }
+
+/* The same, and the attach. */
 #define VIRGA_EFFECT_DRAW_FUNCTIONS(name)                                                                           \
-    static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)             \
-    {                                                                                                               \
-        return virga_##name##_draw(object, cmd, target);                                                            \
-    }                                                                                                               \
+    VIRGA_EFFECT_VIEW_FUNCTIONS(name)                                                                               \
     virga_result virga_##name##_attach(virga_##name *object, const virga_target *target)                            \
     {                                                                                                               \
         return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID; \
@@ -345,15 +374,15 @@ typedef struct virga_effect_target {
     virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* by row, then by constant */
 } virga_effect_target;
 
-/* The view that the newest prepare was for. */
+/* A view that was prepared. */
 typedef struct virga_effect_view {
-    bool ready;
-    uint64_t frame;
+    virga_prepared handle; /* 0: none, or it can not be drawn any more */
+    uint64_t frame;        /* in which it was prepared */
     VkDescriptorSet set;
+    uint32_t offset; /* of its block in the ring of views */
     float viewport[4];
     bool reversed_depth;
-    uint64_t undrawn_frame; /* the frame in which it was prepared and not drawn yet; 0: it was drawn */
-    bool undrawn_logged;    /* it was logged that a prepare replaced a view that was not drawn */
+    bool drawn;
 } virga_effect_view;
 
 /* An upload buffer whose copy was recorded. */
@@ -384,18 +413,39 @@ typedef struct virga_effect {
     bool own_first;              /* a load has recorded first contents, and the effect not yet those of its own */
     virga_pipeline_group passes; /* all passes that a step and a prepare use */
     virga_effect_target *targets;
-    virga_effect_view view;
-    bool not_drawn_logged;  /* it was logged that a draw had nothing to draw; reset by a successful draw */
-    uint64_t step_frame;    /* frame of the newest step */
-    virga_buffer *readback; /* statistics of the frames in flight, for the host */
+    virga_effect_view views[VIRGA_MAX_VIEWS];
+    uint32_t max_views;      /* that live in a frame */
+    uint32_t slot;           /* index of the selected view, see virga_effect_select */
+    uint32_t serial;         /* differs from that of other effects, in handles of views */
+    uint32_t prepares;       /* in the frame prepares_frame */
+    uint64_t prepares_frame; /* the newest frame with a prepare */
+    virga_prepared newest;   /* the view of the newest prepare; 0: it failed */
+    uint32_t newest_slot;    /* of the newest prepare that did not fail */
+    bool undrawn_logged;     /* it was logged that a prepare replaced a view that was not drawn */
+    bool not_drawn_logged;   /* it was logged that a draw had nothing to draw; reset by a successful draw */
+    uint64_t step_frame;     /* frame of the newest step */
+    virga_buffer *readback;  /* statistics of the frames in flight, for the host */
     /* Frames whose statistics were not read yet; 0: none. */
     uint64_t readback_frames[VIRGA_EFFECT_PARTS][VIRGA_MAX_FRAMES_IN_FLIGHT];
+    uint32_t readback_views[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* number of prepares in these frames */
 } virga_effect;
 
 /* The member of an object at the offset that a row gives. */
 static inline void *virga_effect_member(const virga_effect *effect, size_t offset)
 {
     return (char *)effect + offset;
+}
+
+/* Number of buffers or images of a row, and the pointer to one of them. */
+static inline uint32_t virga_effect_copies(const virga_effect *effect, bool per_view)
+{
+    return per_view ? effect->max_views : 1;
+}
+
+static inline void *virga_effect_copy(const virga_effect *effect, size_t member, bool per_view, uint32_t index)
+{
+    void **at = virga_effect_member(effect, member);
+    return per_view ? at + 1 + index : at;
 }
 
 /* ---- life cycle */
@@ -512,11 +562,13 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
 /* Whether any target has motion vectors. */
 bool virga_effect_wants_motion(const virga_effect *effect);
 
-/* The common checks of a draw. Returns the target's pipelines in *found. VIRGA_NOT_READY if the target is not attached
- * or nothing was prepared in this frame; this is logged once, if `ready` is VIRGA_OK. VIRGA_ERROR_INVALID if the depth
- * of the target and of the prepared view run in different directions. */
+/* The common checks of a draw. Selects the view, and returns the target's pipelines in *found. VIRGA_NOT_READY if the
+ * target is not attached or `prepared` is 0, as nothing was prepared in this frame; this is logged once, if `ready` is
+ * VIRGA_OK. VIRGA_ERROR_INVALID if there is no such view, or if its depth and that of the target run in different
+ * directions. */
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                     const virga_target *target, virga_result ready, const virga_effect_target **found);
+                                     const virga_target *target, virga_prepared prepared, virga_result ready,
+                                     const virga_effect_target **found);
 
 /* The same for draws that need no prepare. *found is NULL for a target that is not attached. */
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
@@ -533,8 +585,10 @@ void virga_effects_free_targets(virga_context *context);
  * for another target of its class, if there is one. */
 void virga_effects_forget_target(const virga_target *target);
 
-/* The common checks of a prepare. Draws need a new prepare from now on. VIRGA_NOT_READY if passes are not built, or if
- * `stepped` is false: before the first step. */
+/* ---- views: effect_views.c */
+
+/* The common checks of a prepare. Selects a view for it, whose buffers and images it may write, and which is no longer
+ * drawn. VIRGA_NOT_READY if passes are not built, or if `stepped` is false: before the first step. */
 virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                         const virga_view *view, double time_s, bool stepped);
 
@@ -543,7 +597,31 @@ virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, 
 virga_result virga_effect_push_view(virga_effect *effect, const char *call, virga_ring *ring, const void *block,
                                     size_t size, uint32_t *index, uint32_t *offset);
 
-/* Stores what the draws of a view need. */
-void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const virga_view *view);
+/* Ends a prepare: stores what draws need, and gives the handle of the view to *prepared, which may be NULL. `offset` is
+ * that of its block in the ring. */
+void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, uint32_t offset, const virga_view *view,
+                           virga_prepared *prepared);
+
+/* Makes the buffers and images of a view the object's members. */
+void virga_effect_select(virga_effect *effect, uint32_t slot);
+
+/* The selected view. */
+static inline const virga_effect_view *virga_effect_selected(const virga_effect *effect)
+{
+    return &effect->views[effect->slot];
+}
+
+/* The view of the newest prepare of this frame; 0: none, or it failed. */
+virga_prepared virga_effect_newest(const virga_effect *effect);
+
+/* Selects a prepared view of this frame. VIRGA_ERROR_INVALID, logged, if there is none with this handle. */
+virga_result virga_effect_find_view(virga_effect *effect, const char *call, virga_prepared prepared);
+
+/* Views that were prepared are no longer drawn: of a frame, or of all frames (0). */
+void virga_effect_forget_views(virga_effect *effect, uint64_t frame);
+
+/* The index of the prepare that is being recorded among those of its frame, at most VIRGA_MAX_VIEWS - 1: that of its
+ * statistics. */
+uint32_t virga_effect_view_index(const virga_effect *effect);
 
 #endif

@@ -4,9 +4,6 @@
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/target.h"
-#include "gpu/view.h"
-
-#include <string.h>
 
 /* ---- targets */
 
@@ -159,63 +156,12 @@ void virga_effects_forget_target(const virga_target *target)
     }
 }
 
-/* ---- prepares */
-
-virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                        const virga_view *view, double time_s, bool stepped)
-{
-    if (!cmd || !view)
-        return virga_wrong_argument(&effect->context->log, "%s: NULL argument", call);
-    if (effect->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    effect->view.ready = false;
-    virga_result result = virga_view_check(effect->context, view, time_s);
-    if (!result)
-        result = virga_effect_ready(effect);
-    return result ? result : stepped ? VIRGA_OK : VIRGA_NOT_READY;
-}
-
-virga_result virga_effect_push_view(virga_effect *effect, const char *call, virga_ring *ring, const void *block,
-                                    size_t size, uint32_t *index, uint32_t *offset)
-{
-    *index = virga_ring_used(effect->context, ring);
-    if (*index >= ring->blocks_per_frame)
-        return virga_wrong_argument(&effect->context->log, "%s: more than %u views in a frame", call,
-                                    ring->blocks_per_frame);
-    *offset = virga_ring_push(effect->context, ring, block, size);
-    return VIRGA_OK;
-}
-
 /* ---- draws */
-
-/* An effect has room for one prepared view. A host that prepares all of its views first would draw the last one into
- * each of them. */
-static void log_undrawn(virga_effect *effect)
-{
-    if (effect->view.undrawn_frame != effect->context->frame_index || effect->view.undrawn_logged)
-        return;
-    virga_log_write(&effect->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
-                    "%s: a view was prepared, and the one before it was never drawn: draw each view before the next "
-                    "one is prepared",
-                    effect->type->name);
-    effect->view.undrawn_logged = true;
-}
-
-void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const virga_view *view)
-{
-    log_undrawn(effect);
-    effect->view.ready = true;
-    effect->view.undrawn_frame = effect->context->frame_index;
-    effect->view.frame = effect->context->frame_index;
-    effect->view.set = set;
-    effect->view.reversed_depth = view->reversed_depth;
-    memcpy(effect->view.viewport, view->viewport, sizeof effect->view.viewport);
-}
 
 /* With a wrong direction every fragment fails the depth test, and nothing is seen. */
 static virga_result check_depth(const virga_effect *effect, const char *call, const virga_target *target)
 {
-    const bool of_target = target->def.reversed_depth, of_view = effect->view.reversed_depth;
+    const bool of_target = target->def.reversed_depth, of_view = virga_effect_selected(effect)->reversed_depth;
     if (!target->def.depth_attached || of_target == of_view)
         return VIRGA_OK;
     return virga_wrong_argument(&effect->context->log,
@@ -239,15 +185,18 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
 }
 
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                     const virga_target *target, virga_result ready, const virga_effect_target **found)
+                                     const virga_target *target, virga_prepared prepared, virga_result ready,
+                                     const virga_effect_target **found)
 {
-    const virga_result result = virga_effect_find_target(effect, call, cmd, target, found);
+    virga_result result = virga_effect_find_target(effect, call, cmd, target, found);
     if (result)
         return result;
-    /* The buffers no longer hold what was prepared for an earlier frame or step. */
-    if (!*found || !effect->view.ready || effect->view.frame != effect->context->frame_index)
+    if (!*found || !prepared)
         return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
+    result = virga_effect_find_view(effect, call, prepared);
+    if (result)
+        return result;
     effect->not_drawn_logged = false;
-    effect->view.undrawn_frame = 0;
+    effect->views[effect->slot].drawn = true;
     return check_depth(effect, call, target);
 }

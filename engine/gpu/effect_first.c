@@ -27,7 +27,8 @@ virga_result virga_effect_create_fills(virga_effect *effect)
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
     uint32_t count = 0;
     for (uint32_t i = 0; i < effect->type->buffer_count; i++)
-        count += by_pass(&effect->type->buffers[i]);
+        if (by_pass(&effect->type->buffers[i]))
+            count += virga_effect_copies(effect, effect->type->buffers[i].per_view);
     if (!count)
         return VIRGA_OK;
     const virga_result result = virga_bindings_create(effect->context, kinds, VIRGA_ROWS(kinds), count + 1,
@@ -64,11 +65,14 @@ static void record_fills(virga_effect *effect, VkCommandBuffer cmd)
     uint32_t set_index = 0;
     for (uint32_t i = 0; i < effect->type->buffer_count; i++) {
         const virga_effect_buffer *row = &effect->type->buffers[i];
-        const virga_buffer *buffer = *(virga_buffer **)virga_effect_member(effect, row->member);
-        if (buffer && by_pass(row))
-            record_fill(effect, cmd, row, (virga_bound){.buffer = buffer->buffer, .range = buffer->size}, set_index++);
-        else if (buffer && row->first == VIRGA_FIRST_FILL)
-            effect->context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
+        for (uint32_t k = 0; k < virga_effect_copies(effect, row->per_view); k++) {
+            const virga_buffer *buffer = *(virga_buffer **)virga_effect_copy(effect, row->member, row->per_view, k);
+            if (buffer && by_pass(row))
+                record_fill(effect, cmd, row, (virga_bound){.buffer = buffer->buffer, .range = buffer->size},
+                            set_index++);
+            else if (buffer && row->first == VIRGA_FIRST_FILL)
+                effect->context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
+        }
     }
     if (effect->first_head.buffer)
         record_fill(effect, cmd, &zero, effect->first_head, set_index);
@@ -98,9 +102,13 @@ static void record_images(virga_effect *effect, VkCommandBuffer cmd)
 {
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
-        const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
-        if (image && row->first != VIRGA_FIRST_ANYTHING && (!row->keeps || effect->images == VIRGA_NOT_RECORDED))
-            record_image(effect, cmd, row, image);
+        if (row->first == VIRGA_FIRST_ANYTHING || (row->keeps && effect->images != VIRGA_NOT_RECORDED))
+            continue;
+        for (uint32_t k = 0; k < virga_effect_copies(effect, row->per_view); k++) {
+            const virga_image_2d *image = *(virga_image_2d **)virga_effect_copy(effect, row->member, row->per_view, k);
+            if (image)
+                record_image(effect, cmd, row, image);
+        }
     }
 }
 
@@ -236,8 +244,8 @@ void virga_effects_settle(virga_context *context, uint64_t dropped)
 {
     virga_journal_fate fate;
     for (virga_effect *effect = context->first_effect; effect; effect = effect->next_effect) {
-        if (dropped && effect->view.frame == dropped)
-            effect->view.ready = false;
+        if (dropped)
+            virga_effect_forget_views(effect, dropped);
         while (virga_journal_take(context, &effect->journal, dropped, &fate))
             settle_frame(effect, &fate, fate.frame == dropped);
     }

@@ -13,7 +13,7 @@
 /* Buffers that passes write anew before they read them have no state. */
 static bool is_state_buffer(const virga_effect_buffer *row)
 {
-    return !row->scratch && (row->keeps || row->first == VIRGA_FIRST_FILL);
+    return !row->scratch && !row->per_view && (row->keeps || row->first == VIRGA_FIRST_FILL);
 }
 
 static virga_buffer *buffer_of(const virga_effect *effect, const virga_effect_buffer *row)
@@ -23,7 +23,7 @@ static virga_buffer *buffer_of(const virga_effect *effect, const virga_effect_bu
 
 static virga_image_2d *image_of(const virga_effect *effect, const virga_effect_image *row)
 {
-    return row->keeps ? *(virga_image_2d **)virga_effect_member(effect, row->member) : NULL;
+    return row->keeps && !row->per_view ? *(virga_image_2d **)virga_effect_member(effect, row->member) : NULL;
 }
 
 static VkDeviceSize image_bytes(const virga_image_2d *image)
@@ -348,7 +348,7 @@ static void apply_host(virga_effect *effect, const section_parts *parts)
         saved += aligned(bytes);
     }
     effect->load_frame = effect->context->frame_index;
-    effect->view.ready = false;
+    virga_effect_forget_views(effect, 0);
     if (effect->type->state_loaded)
         effect->type->state_loaded(effect);
 }

@@ -20,6 +20,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_width, 16, 16384, 1920),
     DEF(U32, max_height, 16, 16384, 1080),
     DEF(U32, half_resolution, 0, 1),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -54,7 +55,16 @@ static virga_result fit_device(const virga_context *context, void *given)
 
 /* ---- resources */
 
-enum { COUNT_WIDTH = 1, COUNT_HEIGHT, COUNT_COLUMNS, COUNT_ROWS, COUNT_TEXELS, COUNT_TILES, COUNT_APERTURE };
+enum {
+    COUNT_WIDTH = 1,
+    COUNT_HEIGHT,
+    COUNT_COLUMNS,
+    COUNT_ROWS,
+    COUNT_TEXELS,
+    COUNT_TILES,
+    COUNT_APERTURE,
+    COUNT_VIEWS,
+};
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
@@ -68,18 +78,19 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
                           ((counts[COUNT_ROWS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE);
     counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
+    counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
 }
 
 static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_lens_state_gpu),
-     .first = VIRGA_FIRST_FILL},
+     .first = VIRGA_FIRST_FILL, .per_view = true},
     {"lens.spreads", AT(spreads), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TEXELS},
     {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
 };
 
 static const virga_effect_ring rings[] = {
-    {"lens.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_lens_gpu), VIRGA_COUNT_ONE},
+    {"lens.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_lens_gpu), COUNT_VIEWS},
 };
 
 #define WRITTEN (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)
@@ -90,9 +101,9 @@ static const virga_effect_image images[] = {
     {"lens.samples", AT(samples), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
      VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
-     VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE},
+     VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-     COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE},
+     COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     BLANK_DEPTH("lens.blank_depth", blank_depth),
     BLANK_COLOR("lens.blank_color", blank_color),
 };
@@ -128,7 +139,9 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
 };
 
-static const virga_effect_layout layouts[] = {{AT(bindings), bindings, LENS_BINDINGS, 1, sizeof(uint32_t)}};
+static const virga_effect_layout layouts[] = {
+    {AT(bindings), bindings, LENS_BINDINGS, VIRGA_MAX_VIEWS, sizeof(uint32_t)},
+};
 
 static const virga_effect_pass passes[] = {
     PASS(focus),
@@ -178,12 +191,13 @@ static void describe(const void *object, char *line, size_t size)
 static void lens_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
     virga_lens *lens = object;
-    virga_lens_state_gpu state;
-    (void)ring_slot;
+    virga_lens_state_gpu states[VIRGA_MAX_VIEWS];
     (void)parts;
-    memcpy(&state, data, sizeof state);
-    lens->stats.frame_index = frame;
-    lens->stats.focus_m = state.focus_inv_m > 0 ? 1 / state.focus_inv_m : INFINITY;
+    memcpy(states, data, sizeof states);
+    lens->stats = (virga_lens_stats){.frame_index = frame, .views = lens->base.readback_views[ring_slot]};
+    for (uint32_t i = 0; i < lens->stats.views; i++)
+        lens->stats.view_focus_m[i] = states[i].focus_inv_m > 0 ? 1 / states[i].focus_inv_m : INFINITY;
+    lens->stats.focus_m = lens->stats.view_focus_m[lens->stats.views - 1];
 }
 
 VIRGA_EFFECT_FUNCTIONS(lens)
@@ -204,7 +218,7 @@ const virga_effect_type lens_type = {
     .draws = lens_draws,
     .draw_count = LENS_DRAWS,
     .readback_name = "lens.readback",
-    .readback_bytes = sizeof(virga_lens_state_gpu),
+    .readback_bytes = VIRGA_MAX_VIEWS * sizeof(virga_lens_state_gpu),
     .fit_device = fit_device,
     .count = count,
     .init = init,
@@ -212,9 +226,17 @@ const virga_effect_type lens_type = {
     .read_statistics = lens_read_statistics,
     .apply_settings = apply_settings,
     .draw = lens_type_draw,
+    .max_views = offsetof(virga_lens_def, max_views),
 };
 
 /* ---- queries */
+
+static virga_lens_image picture_of(const virga_lens *lens, uint32_t slot)
+{
+    const virga_image_2d *image = lens->picture_of_view[slot];
+    const lens_prepared *seen = &lens->prepared[slot];
+    return (virga_lens_image){image->image, image->layer_views[0], seen->width, seen->height};
+}
 
 void virga_lens_picture(const virga_lens *lens, virga_lens_image *picture)
 {
@@ -222,7 +244,16 @@ void virga_lens_picture(const virga_lens *lens, virga_lens_image *picture)
         return;
     *picture = (virga_lens_image){0};
     if (lens && lens->base.contents)
-        *picture = (virga_lens_image){lens->picture->image, lens->picture->layer_views[0], lens->width, lens->height};
+        *picture = picture_of(lens, lens->base.newest_slot);
+}
+
+void virga_lens_picture_view(virga_lens *lens, virga_prepared prepared, virga_lens_image *picture)
+{
+    if (!picture)
+        return;
+    *picture = (virga_lens_image){0};
+    if (lens && !virga_effect_find_view(&lens->base, "virga_lens_picture_view", prepared))
+        *picture = picture_of(lens, lens->base.slot);
 }
 
 double virga_lens_breathing(double focal_m, double focus_m)

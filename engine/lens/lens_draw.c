@@ -32,12 +32,9 @@ static virga_result check_layer(const virga_log *log, const virga_lens_layer *la
     return VIRGA_OK;
 }
 
-static virga_result check_view(const virga_lens *lens, const virga_view *view, double time_s)
+static virga_result check_view(const virga_lens *lens, const virga_view *view)
 {
     const virga_context *context = lens->base.context;
-    const virga_result result = virga_view_check(context, view, time_s);
-    if (result)
-        return result;
     if (!view->color.view)
         return virga_wrong_argument(&context->log, "virga_lens_prepare: expected a view with color");
     if (view->viewport[0] < 0 || view->viewport[1] < 0 || view->viewport[2] > (float)lens->def.max_width ||
@@ -54,21 +51,23 @@ static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const v
                                   const virga_lens_layer *layers, uint32_t layer_count, double time_s)
 {
     const virga_log *log = &lens->base.context->log;
-    virga_result result = virga_effect_check_one_step(&lens->base, "virga_lens_prepare", cmd, view);
+    virga_result result = virga_effect_check_step(&lens->base, "virga_lens_prepare", cmd, view);
+    if (!result)
+        result = virga_effect_check_prepare(&lens->base, "virga_lens_prepare", cmd, view, time_s, true);
     if (result)
         return result;
     if (layer_count > VIRGA_LENS_MAX_LAYERS || (layer_count && !layers))
         return virga_wrong_argument(log, "virga_lens_prepare: expected up to %d layers, got %u%s",
                                     VIRGA_LENS_MAX_LAYERS, layer_count, layers ? "" : " in no array");
     uint32_t on_scene = 0;
-    result = check_view(lens, view, time_s);
+    result = check_view(lens, view);
     for (uint32_t i = 0; i < layer_count && !result; i++) {
         result = check_layer(log, &layers[i], i);
         on_scene += layers[i].on_scene;
     }
     if (!result && on_scene > 1)
         return virga_wrong_argument(log, "layers: expected one on_scene at most, got %u", on_scene);
-    return result ? result : virga_effect_ready(&lens->base);
+    return result;
 }
 
 /* ---- the uniforms of a view */
@@ -76,8 +75,9 @@ static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const v
 /* The share of the way to a new focus. Time that runs backwards, or the first picture, go there at once. */
 static float ease(const virga_lens *lens, double time_s)
 {
-    const double passed_s = time_s - lens->time_s, constant_s = (double)lens->settings.focus_time_s;
-    if (!lens->has_time || passed_s < 0 || constant_s <= 0)
+    const lens_prepared *before = &lens->prepared[lens->base.slot];
+    const double passed_s = time_s - before->time_s, constant_s = (double)lens->settings.focus_time_s;
+    if (!before->has_time || passed_s < 0 || constant_s <= 0)
         return 1;
     return (float)(1 - exp(-passed_s / constant_s));
 }
@@ -132,8 +132,9 @@ static void fill_lens(const virga_lens *lens, const virga_view *view, double tim
         out->areas[i] = lens->areas[i];
 }
 
-static void push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers, uint32_t layer_count,
-                      double time_s, virga_lens_gpu *filled)
+static virga_result push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
+                              uint32_t layer_count, double time_s, virga_lens_gpu *filled, uint32_t *index,
+                              uint32_t *offset)
 {
     *filled = (virga_lens_gpu){.layers = layer_count};
     fill_picture(lens, view, filled);
@@ -142,16 +143,19 @@ static void push_view(virga_lens *lens, const virga_view *view, const virga_lens
         filled->layer_inv_m[i] = layers[i].depth.view || layers[i].on_scene ? 0 : 1 / layers[i].depth_m;
         filled->on_scene = layers[i].on_scene ? i + 1 : filled->on_scene;
     }
-    lens->view_offset = virga_ring_push(lens->base.context, &lens->view_ring, filled, sizeof *filled);
-    lens->width = filled->width;
-    lens->height = filled->height;
-    lens->layers = layer_count;
-    lens->time_s = time_s;
-    lens->has_time = true;
+    const virga_result result = virga_effect_push_view(&lens->base, "virga_lens_prepare", &lens->view_ring, filled,
+                                                       sizeof *filled, index, offset);
+    if (!result)
+        lens->prepared[lens->base.slot] = (lens_prepared){.time_s = time_s,
+                                                          .has_time = true,
+                                                          .width = filled->width,
+                                                          .height = filled->height,
+                                                          .layers = layer_count};
+    return result;
 }
 
-static VkDescriptorSet write_set(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
-                                 uint32_t layer_count)
+static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_view *view,
+                                 const virga_lens_layer *layers, uint32_t layer_count)
 {
     virga_context *context = lens->base.context;
     virga_bound bound[VIRGA_MAX_BINDINGS];
@@ -168,7 +172,7 @@ static VkDescriptorSet write_set(virga_lens *lens, const virga_view *view, const
         const virga_image *depth = layer && layer->on_scene ? &view->depth : layer ? &layer->depth : NULL;
         bound[LENS_BIND_LAYER_DEPTHS + i] = virga_bound_or_blank(depth, lens->blank_depth, context->nearest);
     }
-    return virga_bindings_write(context, lens->bindings, 0, bound);
+    return virga_bindings_write(context, lens->bindings, index, bound);
 }
 
 /* ---- prepare */
@@ -206,26 +210,40 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
 virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
                                 const virga_lens_layer *layers, uint32_t layer_count, double time_s)
 {
+    return virga_lens_prepare_view(lens, cmd, view, layers, layer_count, time_s, NULL);
+}
+
+virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
+                                     const virga_lens_layer *layers, uint32_t layer_count, double time_s,
+                                     virga_prepared *prepared)
+{
+    if (prepared)
+        *prepared = 0;
     if (!lens)
         return VIRGA_ERROR_INVALID;
     virga_context *context = lens->base.context;
-    const virga_result result = check_prepare(lens, cmd, view, layers, layer_count, time_s);
+    virga_result result = check_prepare(lens, cmd, view, layers, layer_count, time_s);
     if (result)
         return result;
     virga_lens_gpu filled;
-    push_view(lens, view, layers, layer_count, time_s, &filled);
-    const VkDescriptorSet set = write_set(lens, view, layers, layer_count);
+    uint32_t index, offset;
+    result = push_view(lens, view, layers, layer_count, time_s, &filled, &index, &offset);
+    if (result)
+        return result;
+    const VkDescriptorSet set = write_set(lens, index, view, layers, layer_count);
     virga_effect_begin_step(&lens->base, cmd);
     virga_effect_first_contents(&lens->base, cmd);
-    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &lens->view_offset);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &offset);
     virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
     if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
         over(lens, cmd, "lens.paper", lens->paper, filled.width, filled.height);
     else
         record_physical(lens, cmd, &filled);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_FRAGMENTS); /* also for the host */
-    virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0, 0, sizeof(virga_lens_state_gpu));
-    virga_effect_set_view(&lens->base, set, view);
+    virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0,
+                                 virga_effect_view_index(&lens->base) * sizeof(virga_lens_state_gpu),
+                                 sizeof(virga_lens_state_gpu));
+    virga_effect_set_view(&lens->base, set, offset, view, prepared);
     return virga_check_uploads(context);
 }
 
@@ -240,22 +258,22 @@ const virga_effect_draw lens_draws[LENS_DRAWS] = {
 
 /* Over the viewport. */
 static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd, const virga_target *target,
-                         uint32_t row, uint32_t part)
+                         virga_prepared prepared, uint32_t row, uint32_t part)
 {
     virga_context *context = lens->base.context;
     const virga_effect_target *found;
     virga_result result =
-        virga_effect_check_draw(&lens->base, call, cmd, target, virga_effect_ready(&lens->base), &found);
+        virga_effect_check_draw(&lens->base, call, cmd, target, prepared, virga_effect_ready(&lens->base), &found);
     if (result)
         return result;
     const virga_pipeline *pipeline = found->draws[row];
     result = virga_pipelines_ready(&pipeline, 1);
     if (result)
         return result;
+    const virga_effect_view *view = virga_effect_selected(&lens->base);
     const virga_pass_scope scope = virga_draw_begin(context, cmd, lens_draws[row].name);
-    virga_set_draw_area(context, cmd, lens->base.view.viewport);
-    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, lens->base.view.set, 1,
-               &lens->view_offset);
+    virga_set_draw_area(context, cmd, view->viewport);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, view->set, 1, &view->offset);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof part, &part);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
@@ -263,20 +281,36 @@ static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd
     return VIRGA_OK;
 }
 
-virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target)
+virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                       const char *call)
 {
-    return lens ? draw(lens, "virga_lens_draw", cmd, target, LENS_DRAW_PICTURE, 0) : VIRGA_ERROR_INVALID;
+    return draw(lens, call, cmd, target, prepared, LENS_DRAW_PICTURE, 0);
+}
+
+static virga_result draw_part(virga_lens *lens, const char *call, VkCommandBuffer cmd, const virga_target *target,
+                              virga_prepared prepared, uint32_t part)
+{
+    const virga_log *log = &lens->base.context->log;
+    const virga_result result = prepared ? virga_effect_find_view(&lens->base, call, prepared) : VIRGA_OK;
+    if (result)
+        return result;
+    const uint32_t layers = lens->prepared[lens->base.slot].layers;
+    if (part > layers)
+        return virga_wrong_argument(log, "%s: expected up to %u, the layers of the prepare, got %u", call, layers,
+                                    part);
+    if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
+        return virga_wrong_argument(log, "%s: expected the physical style; the paper's has no parts", call);
+    return draw(lens, call, cmd, target, prepared, LENS_DRAW_PART, part);
 }
 
 virga_result virga_lens_draw_part(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, uint32_t part)
 {
-    if (!lens)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &lens->base.context->log;
-    if (part > lens->layers)
-        return virga_wrong_argument(log, "virga_lens_draw_part: expected up to %u, the layers of the prepare, got %u",
-                                    lens->layers, part);
-    if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
-        return virga_wrong_argument(log, "virga_lens_draw_part: expected the physical style; the paper's has no parts");
-    return draw(lens, "virga_lens_draw_part", cmd, target, LENS_DRAW_PART, part);
+    return lens ? draw_part(lens, "virga_lens_draw_part", cmd, target, virga_effect_newest(&lens->base), part)
+                : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_lens_draw_part_view(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target,
+                                       virga_prepared prepared, uint32_t part)
+{
+    return lens ? draw_part(lens, "virga_lens_draw_part_view", cmd, target, prepared, part) : VIRGA_ERROR_INVALID;
 }

@@ -24,18 +24,26 @@ enum {
     LENS_BINDINGS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
 };
 
+/* What is known of the newest prepare of each view besides virga_effect_view. */
+typedef struct lens_prepared {
+    double time_s;
+    bool has_time;
+    uint32_t width, height, layers;
+} lens_prepared;
+
 struct virga_lens {
     virga_effect base; /* first */
     virga_lens_def def;
     virga_lens_settings settings;
     float areas[VIRGA_LENS_SPREADS];
-    double time_s; /* of the newest prepare */
-    bool has_time;
 
-    virga_buffer *state, *spreads, *tiles, *reaches;
-    virga_image_2d *aperture, *samples, *fields, *picture, *blank_depth, *blank_color;
+    VIRGA_PER_VIEW(virga_buffer, state);
+    virga_buffer *spreads, *tiles, *reaches;
+    VIRGA_PER_VIEW(virga_image_2d, picture);
+    VIRGA_PER_VIEW(virga_image_2d, fields);
+    virga_image_2d *aperture, *samples, *blank_depth, *blank_color;
     virga_ring view_ring;
-    uint32_t view_offset, width, height, layers; /* of the newest prepare */
+    lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather[2], *layer[VIRGA_LENS_LAYERS], *combine,
         *paper;
@@ -50,5 +58,7 @@ void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, flo
 /* ---- lens_draw.c */
 enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAWS };
 extern const virga_effect_draw lens_draws[LENS_DRAWS];
+virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                       const char *call);
 
 #endif

@@ -31,6 +31,7 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, range_m, 4, 512, 32),
     DEF(U32, max_impacts, 256, 4194240, 65536),
     DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES, 0, .look = true),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
     DEF(U32, occlusion_size, 0, 8192, 1024),
     DEF(U32, occlusion_cascades, 1, 4, 2),
@@ -144,11 +145,12 @@ static const virga_effect_buffer buffers[] = {
      COUNT_IMPACTS, FILL},
     {"rain.picks", AT(pick_buffer), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
     {"rain.list", AT(list_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_list_gpu), sizeof(uint32_t), COUNT_SLOTS},
-    {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS},
+    {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS,
+     .per_view = true},
     {"rain.total", AT(total_buffer), VIRGA_USE_STORAGE, DEVICE, sizeof(virga_rain_total_gpu), .first = FILL},
     {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL,
-     .scratch = true},
-    {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
+     .per_view = true},
+    {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER, .per_view = true},
     {"rain.hits", AT(hit_buffer), VIRGA_USE_STORAGE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
     {"rain.hit_offsets", AT(hit_offset_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
     {"rain.sways", AT(sway_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
@@ -245,9 +247,10 @@ static uint32_t pass_constant(const void *object)
     return VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
 }
 
-static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared)
 {
-    return virga_rain_prepare(object, cmd, view, time_s);
+    return virga_rain_prepare_view(object, cmd, view, time_s, prepared);
 }
 
 /* ---- settings */

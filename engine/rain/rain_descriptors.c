@@ -81,11 +81,22 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
     return virga_bindings_write(context, rain->bindings, index, bound);
 }
 
-void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+static void bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set, uint32_t tick,
+                 uint32_t view)
 {
-    const uint32_t tick = rain->tick_offset;
-    const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
+    const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), view,
                                  tick + (uint32_t)offsetof(rain_tick_block, travels),
                                  tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset};
     virga_bind(rain->base.context, cmd, point, rain->bindings, set, 5, offsets);
+}
+
+void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
+{
+    bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, rain->tick_offset, rain->view_offset);
+}
+
+void rain_bind_view(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set, uint32_t tick_offset,
+                    uint32_t view_offset)
+{
+    bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, tick_offset, view_offset);
 }

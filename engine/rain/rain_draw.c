@@ -122,10 +122,11 @@ static void fill_haze_alone(const virga_rain *rain, const virga_view *view, cons
     out->look.begin[3] = 0;
 }
 
-static virga_result push_view(virga_rain *rain, const char *call, const rain_view_block *block, uint32_t *index)
+static virga_result push_view(virga_rain *rain, const char *call, const rain_view_block *block, uint32_t *index,
+                              uint32_t *offset)
 {
     rain_keep_tick(rain);
-    return virga_effect_push_view(&rain->base, call, &rain->view_ring, block, sizeof *block, index, &rain->view_offset);
+    return virga_effect_push_view(&rain->base, call, &rain->view_ring, block, sizeof *block, index, offset);
 }
 
 /* ---- prepare */
@@ -136,7 +137,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.prepare");
     /* An earlier draw, of this or an earlier frame, may still read the streaks. */
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    rain_bind(rain, cmd, set);
     virga_record_list(context, cmd, rain->streak_mark, rain->streak_scan, rain->compact, rain->groups);
     virga_dispatch_indirect(context, cmd, rain->streak_write, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
@@ -147,7 +148,8 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_dispatch_indirect(context, cmd, rain->order_indices, rain->list_buffer->buffer, 0);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES);
     virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_PREPARE, rain->prepared_buffer, 0,
-                                 offsetof(rain_readback, prepared), sizeof(virga_prepared_gpu));
+                                 offsetof(rain_readback, prepared[virga_effect_view_index(&rain->base)]),
+                                 sizeof(virga_prepared_gpu));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -164,6 +166,14 @@ static uint32_t glowing_lamps(const virga_rain *rain)
 
 virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
+    return virga_rain_prepare_view(rain, cmd, view, time_s, NULL);
+}
+
+virga_result virga_rain_prepare_view(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                                     virga_prepared *prepared)
+{
+    if (prepared)
+        *prepared = 0;
     if (!rain)
         return VIRGA_ERROR_INVALID;
     virga_result result =
@@ -174,17 +184,20 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     uint32_t index;
     rain_view_block block;
     fill_view(rain, view, time_s, &block);
-    result = push_view(rain, "virga_rain_prepare", &block, &index);
+    result = push_view(rain, "virga_rain_prepare", &block, &index, &rain->view_offset);
     if (result)
         return result;
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
     const VkDescriptorSet set = rain_write_set(rain, index, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, set);
-    virga_effect_set_view(&rain->base, set, view);
-    rain->prepared_depth = has_depth;
-    rain->prepared_line_px = rain->settings.min_width_px + 1; /* the width of quads in streak.glsl */
-    rain->prepared_haze = has_depth && hazes(rain);
-    rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
+    virga_effect_set_view(&rain->base, set, rain->view_offset, view, prepared);
+    const bool has_haze = has_depth && hazes(rain);
+    rain->prepared[rain->base.slot] =
+        (rain_prepared){.tick_offset = rain->tick_offset,
+                        .line_px = rain->settings.min_width_px + 1, /* the width of quads in streak.glsl */
+                        .haze = has_haze,
+                        .depth = has_depth,
+                        .glows = has_haze ? glowing_lamps(rain) : 0};
     return virga_check_uploads(rain->base.context);
 }
 
@@ -220,14 +233,14 @@ static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipe
     virga_draw_indexed_indirect(rain->base.context, cmd, pipeline, rain->prepared_buffer->buffer, arguments);
 }
 
-static void draw_all_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *line,
+static void draw_all_streaks(virga_rain *rain, VkCommandBuffer cmd, float line_px, const virga_pipeline *line,
                              const virga_pipeline *thin_quads, const virga_pipeline *wide_quads)
 {
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
     context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     if (line) {
-        context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
+        context->vk.CmdSetLineWidth(cmd, line_px);
         draw_streaks(rain, cmd, line, offsetof(virga_prepared_gpu, lines));
     }
     draw_streaks(rain, cmd, thin_quads, offsetof(virga_prepared_gpu, thin_quads));
@@ -236,46 +249,61 @@ static void draw_all_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_
 }
 
 static virga_result draw_parts(virga_rain *rain, const char *call, VkCommandBuffer cmd, const virga_target *target,
-                               uint32_t parts)
+                               virga_prepared prepared, uint32_t parts)
 {
     const virga_effect_target *found;
     virga_result result =
-        virga_effect_check_draw(&rain->base, call, cmd, target, virga_effect_ready(&rain->base), &found);
+        virga_effect_check_draw(&rain->base, call, cmd, target, prepared, virga_effect_ready(&rain->base), &found);
     if (result)
         return result;
-    const virga_pipeline *thin_quads = found->draws[RAIN_DRAW_THIN + rain->prepared_depth],
-                         *wide_quads = found->draws[RAIN_DRAW_WIDE + rain->prepared_depth],
-                         *line = found->draws[RAIN_DRAW_LINES + rain->prepared_depth],
-                         *haze = found->draws[RAIN_DRAW_HAZE], *glow = found->draws[RAIN_DRAW_GLOW];
+    const virga_effect_view *view = virga_effect_selected(&rain->base);
+    const rain_prepared *seen = &rain->prepared[rain->base.slot];
+    const virga_pipeline *thin_quads = found->draws[RAIN_DRAW_THIN + seen->depth],
+                         *wide_quads = found->draws[RAIN_DRAW_WIDE + seen->depth],
+                         *line = found->draws[RAIN_DRAW_LINES + seen->depth], *haze = found->draws[RAIN_DRAW_HAZE],
+                         *glow = found->draws[RAIN_DRAW_GLOW];
     const virga_pipeline *used[] = {haze, glow, thin_quads, wide_quads, line ? line : thin_quads};
     result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result)
         return result;
-    virga_set_draw_area(rain->base.context, cmd, rain->base.view.viewport);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->base.view.set);
-    if ((parts & VIRGA_RAIN_HAZE) && rain->prepared_haze)
+    virga_set_draw_area(rain->base.context, cmd, view->viewport);
+    rain_bind_view(rain, cmd, view->set, seen->tick_offset, view->offset);
+    if ((parts & VIRGA_RAIN_HAZE) && seen->haze)
         draw_plain(rain, cmd, haze, 3, 1, "rain.haze");
-    if ((parts & VIRGA_RAIN_HAZE) && rain->prepared_glows)
-        draw_plain(rain, cmd, glow, 6, rain->prepared_glows, "rain.glow");
+    if ((parts & VIRGA_RAIN_HAZE) && seen->glows)
+        draw_plain(rain, cmd, glow, 6, seen->glows, "rain.glow");
     if (parts & VIRGA_RAIN_STREAKS)
-        draw_all_streaks(rain, cmd, line, thin_quads, wide_quads);
+        draw_all_streaks(rain, cmd, seen->line_px, line, thin_quads, wide_quads);
     return VIRGA_OK;
 }
 
-virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
+virga_result rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                       const char *call)
 {
-    return rain ? draw_parts(rain, "virga_rain_draw", cmd, target, VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS)
-                : VIRGA_ERROR_INVALID;
+    return draw_parts(rain, call, cmd, target, prepared, VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS);
+}
+
+static virga_result check_parts(const virga_rain *rain, const char *call, uint32_t parts)
+{
+    if (!parts || (parts & ~(uint32_t)(VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS)))
+        return virga_wrong_argument(&rain->base.context->log, "%s: expected bits of virga_rain_parts, got %u", call,
+                                    parts);
+    return VIRGA_OK;
 }
 
 virga_result virga_rain_draw_parts(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, uint32_t parts)
 {
-    if (!rain)
+    if (!rain || check_parts(rain, "virga_rain_draw_parts", parts))
         return VIRGA_ERROR_INVALID;
-    if (!parts || (parts & ~(uint32_t)(VIRGA_RAIN_HAZE | VIRGA_RAIN_STREAKS)))
-        return virga_wrong_argument(&rain->base.context->log,
-                                    "virga_rain_draw_parts: expected bits of virga_rain_parts, got %u", parts);
-    return draw_parts(rain, "virga_rain_draw_parts", cmd, target, parts);
+    return draw_parts(rain, "virga_rain_draw_parts", cmd, target, virga_effect_newest(&rain->base), parts);
+}
+
+virga_result virga_rain_draw_parts_view(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target,
+                                        virga_prepared prepared, uint32_t parts)
+{
+    if (!rain || check_parts(rain, "virga_rain_draw_parts_view", parts))
+        return VIRGA_ERROR_INVALID;
+    return draw_parts(rain, "virga_rain_draw_parts_view", cmd, target, prepared, parts);
 }
 
 /* ---- haze alone */
@@ -315,19 +343,17 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result || !hazes(rain))
         return result;
-    uint32_t index;
+    uint32_t index, offset;
     rain_view_block block;
-    const uint32_t prepared_offset = rain->view_offset;
     fill_view(rain, view, virga_rain_time(rain), &block);
     fill_haze_alone(rain, view, begin, &block);
-    result = push_view(rain, "virga_rain_draw_haze", &block, &index);
+    result = push_view(rain, "virga_rain_draw_haze", &block, &index, &offset);
     if (result)
         return result;
     virga_set_draw_area(rain->base.context, cmd, view->viewport);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, index, &view->depth));
+    rain_bind_view(rain, cmd, rain_write_set(rain, index, &view->depth), rain->tick_offset, offset);
     draw_plain(rain, cmd, used[0], 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))
         draw_plain(rain, cmd, used[1], 6, glowing_lamps(rain), "rain.glow_alone");
-    rain->view_offset = prepared_offset; /* for a later virga_rain_draw */
     return virga_check_uploads(rain->base.context);
 }

@@ -79,7 +79,7 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
     /* The impacts use the same lists, and a pane may still read the hits of an earlier step. */
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS, VIRGA_PASSES | VIRGA_ARGUMENTS);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
+    rain_bind(rain, cmd, rain->step_set);
     context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
     virga_record_list(context, cmd, rain->hit_mark, rain->hit_scan, rain->compact, pane->groups);
     virga_dispatch_indirect(context, cmd, rain->hit_count, rain->list_buffer->buffer, 0);

@@ -109,14 +109,22 @@ enum { RAIN_BINDINGS = 24 };
 
 /* The statistics that are read back for one frame. */
 typedef struct rain_readback {
-    virga_impacts_gpu impacts;   /* of its step */
-    virga_rain_total_gpu total;  /* of all steps before it */
-    virga_prepared_gpu prepared; /* of its prepare */
+    virga_impacts_gpu impacts;                    /* of its step */
+    virga_rain_total_gpu total;                   /* of all steps before it */
+    virga_prepared_gpu prepared[VIRGA_MAX_VIEWS]; /* of its prepares */
 } rain_readback;
 
 enum { RAIN_PART_STEP, RAIN_PART_PREPARE }; /* of the statistics */
 
 enum { RAIN_DID_MAPS = VIRGA_DID_OWN }; /* the occlusion maps, in the journal */
+
+/* What draws need of a view besides virga_effect_view. */
+typedef struct rain_prepared {
+    uint32_t tick_offset;
+    float line_px; /* width of line streaks */
+    bool haze, depth;
+    uint32_t glows; /* number of lamps that glow */
+} rain_prepared;
 
 /* The host's statistics of a frame's step. */
 typedef struct rain_frame_stats {
@@ -143,8 +151,11 @@ struct virga_rain {
     bool stepped, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
-    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *hit_buffer, *hit_offset_buffer, *sway_buffer, *order_buffer, *point_buffer, *total_buffer;
+    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *hit_buffer,
+        *hit_offset_buffer, *sway_buffer, *point_buffer, *total_buffer;
+    VIRGA_PER_VIEW(virga_buffer, streak_buffer);
+    VIRGA_PER_VIEW(virga_buffer, prepared_buffer);
+    VIRGA_PER_VIEW(virga_buffer, order_buffer);
     virga_ring tick_ring, view_ring;
     uint32_t tick_offset, view_offset; /* offsets of the newest blocks */
     uint64_t tick_frame;               /* the frame whose part of the ring has the newest tick */
@@ -169,9 +180,7 @@ struct virga_rain {
 
     uint64_t hits_frame; /* the frame that hits_panes belongs to */
     uint32_t hits_panes, hits_offset;
-    float prepared_line_px; /* width of line streaks */
-    bool prepared_haze, prepared_depth;
-    uint32_t prepared_glows; /* number of lamps that glow */
+    rain_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
     virga_rain_stats stats;
 };
@@ -213,7 +222,11 @@ extern const virga_binding_kind rain_bindings[RAIN_BINDINGS];
 
 /* Writes a set of this frame. `scene_depth` NULL: a blank image is bound. */
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);
-void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
+/* Binds a set for passes, with the newest tick and view. */
+void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set);
+/* Binds it for draws. */
+void rain_bind_view(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set, uint32_t tick_offset,
+                    uint32_t view_offset);
 
 /* ---- rain_step.c */
 
@@ -235,5 +248,7 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
 
 /* ---- rain_draw.c */
 extern const virga_effect_draw rain_draws[RAIN_DRAW_ROWS];
+virga_result rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                       const char *call);
 
 #endif

@@ -31,6 +31,14 @@ static void read_step(virga_rain *rain, const rain_frame_stats *frame, const rai
                         rain->def.max_impacts);
 }
 
+static void read_views(virga_rain_stats *stats, uint32_t views, const virga_prepared_gpu *prepared)
+{
+    stats->views = views;
+    for (uint32_t i = 0; i < VIRGA_MAX_VIEWS; i++)
+        stats->view_streaks[i] = i < views ? prepared[i].streaks : 0;
+    stats->streaks = prepared[views - 1].streaks;
+}
+
 void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
     virga_rain *rain = object;
@@ -39,7 +47,7 @@ void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint
     rain->stats.frame_index = frame;
     rain->stats.slots = rain->slots;
     if (parts & 1u << RAIN_PART_PREPARE)
-        rain->stats.streaks = read.prepared.streaks;
+        read_views(&rain->stats, rain->base.readback_views[ring_slot], read.prepared);
     if (parts & 1u << RAIN_PART_STEP)
         read_step(rain, &rain->frame_stats[ring_slot], &read);
 }
@@ -186,7 +194,7 @@ void rain_keep_tick(virga_rain *rain)
 static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
     virga_context *context = rain->base.context;
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    rain_bind(rain, cmd, set);
     virga_pass_scope scope;
     if (rain->sway_on) {
         scope = virga_pass_begin(context, cmd, "rain.wind");
@@ -213,7 +221,7 @@ static void record_refresh(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
 {
     virga_context *context = rain->base.context;
     push_tick(rain, 0);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    rain_bind(rain, cmd, set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.step");
     virga_dispatch(context, cmd, rain->move, rain->groups);
     virga_compute_barrier(context, cmd);
@@ -333,7 +341,7 @@ virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virg
     if (!rain->point_buffer || !rain->stepped || rain->step_set_frame != context->frame_index)
         return VIRGA_NOT_READY;
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
+    rain_bind(rain, cmd, rain->step_set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.points");
     virga_dispatch(context, cmd, rain->points, rain->groups);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_VERTICES);

@@ -23,7 +23,8 @@ virga_scene_def virga_default_scene_def(void)
                              .rain = virga_default_rain_def(),
                              .ground = virga_default_ground_def(),
                              .splash = virga_default_splash_def(),
-                             .water = virga_default_water_def()};
+                             .water = virga_default_water_def(),
+                             .max_views = 1};
 }
 
 virga_result scene_merge_results(virga_result a, virga_result b)
@@ -38,6 +39,9 @@ static virga_result check_def(const virga_log *log, const virga_scene_def *def)
         return result;
     if (def->with_splash && !def->with_ground)
         return virga_wrong_argument(log, "scene_def.with_splash: expected with_ground too");
+    if (def->max_views < 1 || def->max_views > VIRGA_MAX_VIEWS)
+        return virga_wrong_argument(log, "scene_def.max_views: expected 1 to %d, got %u", VIRGA_MAX_VIEWS,
+                                    def->max_views);
     if (def->pane_count > VIRGA_SCENE_MAX_PANES || (def->pane_count && !def->panes))
         return virga_wrong_argument(log, "scene_def.pane_count: expected up to %d and as many panes, got %u%s",
                                     VIRGA_SCENE_MAX_PANES, def->pane_count, def->panes ? "" : " and panes NULL");
@@ -59,6 +63,8 @@ static void define_effect(const virga_scene_def *def, const scene_kind *kind, ui
         virga_effect_default_def(kind->type, effect_def);
     if (kind->share)
         kind->share(def, index, effect_def);
+    if (kind->type->max_views)
+        memcpy((char *)effect_def + kind->type->max_views, &def->max_views, sizeof def->max_views);
 }
 
 static VkDeviceSize effect_estimate(const virga_scene_def *def, const scene_kind *kind, uint32_t index)
@@ -157,6 +163,7 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
         return virga_out_of_host_memory(context, "a scene");
     made->context = context;
     made->catching_panes = def->rain.max_panes;
+    made->max_views = def->max_views;
     result = create_effects(made, def);
     sort_draws(made);
     if (result < 0)
@@ -234,7 +241,34 @@ static virga_result check_positions(const virga_log *log, const virga_scene_fram
     return VIRGA_OK;
 }
 
-/* VIRGA_NOT_READY: all is valid, but the view has no pixels. */
+/* The views of a frame, as an array. */
+static const virga_view *views_of(const virga_scene_frame *frame, uint32_t *count)
+{
+    *count = frame->views ? frame->view_count : frame->view ? 1 : 0;
+    return frame->views ? frame->views : frame->view;
+}
+
+/* VIRGA_NOT_READY: all are valid, but one has no pixels. */
+static virga_result check_views(const virga_scene *scene, const virga_scene_frame *frame)
+{
+    const virga_log *log = &scene->context->log;
+    const virga_rain *rain = scene_find(scene, &rain_type, 0);
+    if (frame->views && frame->view)
+        return virga_wrong_argument(log, "scene_frame.view: expected NULL, as there are scene_frame.views");
+    if (frame->view_count && !frame->views)
+        return virga_wrong_argument(log, "scene_frame.views: expected %u, got NULL", frame->view_count);
+    uint32_t count;
+    const virga_view *views = views_of(frame, &count);
+    if (count > scene->max_views)
+        return virga_wrong_argument(log, "scene_frame.view_count: expected up to scene_def.max_views = %u, got %u",
+                                    scene->max_views, count);
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < count && result >= 0; i++)
+        result = scene_merge_results(result, virga_view_check(scene->context, &views[i], virga_rain_time(rain)));
+    return result;
+}
+
+/* VIRGA_NOT_READY: all is valid, but a view has no pixels. */
 static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     const virga_log *log = &scene->context->log;
@@ -253,19 +287,18 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
         if (effect->kind->check_frame && effect->kind->check_frame(scene, effect->index, frame))
             return VIRGA_ERROR_INVALID;
     }
-    const virga_rain *rain = scene_find(scene, &rain_type, 0);
-    return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(rain)) : VIRGA_OK;
+    return check_views(scene, frame);
 }
 
 /* Logs a camera that is beyond the rain. The usual causes are a camera_m that was not set, or one in other units than
  * the view's. The rain then looks as if it does not work. */
-static void log_if_far(virga_scene *scene, const virga_scene_frame *frame)
+static void log_if_far(virga_scene *scene, const virga_scene_frame *frame, const virga_view *view)
 {
     virga_rainfall fall;
     double distance2 = 0;
     virga_rain_rainfall_get(scene_find(scene, &rain_type, 0), &fall);
     for (int axis = 0; axis < 3; axis++)
-        distance2 += pow(frame->view->position_m[axis] - frame->camera_m[axis], 2);
+        distance2 += pow(view->position_m[axis] - frame->camera_m[axis], 2);
     const bool is_far = sqrt(distance2) > (double)fall.reach_m;
     if (is_far && !scene->far_logged)
         virga_log_write(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
@@ -311,15 +344,29 @@ static virga_result step_all(virga_scene *scene, VkCommandBuffer cmd, const virg
 }
 
 /* Prepares the effects at the time of the rain. Panes are prepared separately, see virga_scene_prepare_panes. */
-static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
+static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view, uint32_t index)
 {
     const double time_s = virga_rain_time(scene_find(scene, &rain_type, 0));
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
-        virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
+        const uint32_t at = scene->draw_order[i];
+        virga_effect *effect = scene->effects[at].effect;
         if (effect->type->prepare)
-            result = scene_merge_results(result, effect->type->prepare(effect, cmd, view, time_s));
+            result =
+                scene_merge_results(result, effect->type->prepare(effect, cmd, view, time_s, &scene->views[index][at]));
     }
+    return result;
+}
+
+/* A view of no pixels, which was logged, is left out. */
+static virga_result prepare_view(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame,
+                                 const virga_view *view, uint32_t index)
+{
+    if (!(view->viewport[2] >= 1 && view->viewport[3] >= 1))
+        return VIRGA_OK;
+    virga_result result = prepare_all(scene, cmd, view, index);
+    if (result >= 0 && !frame->defer_panes)
+        result = scene_merge_results(result, virga_scene_prepare_panes_view(scene, cmd, index, view, frame->panes));
     return result;
 }
 
@@ -353,14 +400,13 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     if (check_once(scene))
         return VIRGA_ERROR_INVALID;
     scene->recorded_frame = scene->context->frame_index;
-    const bool seen = frame->view && !checked;
-    if (seen)
-        log_if_far(scene, frame);
+    const virga_view *views = views_of(frame, &scene->view_count);
+    memset(scene->views, 0, sizeof scene->views);
+    for (uint32_t i = 0; i < scene->view_count; i++)
+        log_if_far(scene, frame, &views[i]);
     virga_result result = scene_merge_results(checked, step_all(scene, cmd, frame));
-    if (result >= 0 && seen)
-        result = scene_merge_results(result, prepare_all(scene, cmd, frame->view));
-    if (result >= 0 && seen && !frame->defer_panes)
-        result = scene_merge_results(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
+    for (uint32_t i = 0; i < scene->view_count && result >= 0; i++)
+        result = scene_merge_results(result, prepare_view(scene, cmd, frame, &views[i], i));
     return result;
 }
 
@@ -376,15 +422,45 @@ virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
     return result;
 }
 
+/* Draws a view of each effect. NULL: the newest ones. */
+static virga_result draw_all(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target,
+                             const virga_prepared *views)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
+        const uint32_t at = scene->draw_order[i];
+        virga_effect *effect = scene->effects[at].effect;
+        const virga_prepared prepared = views ? views[at] : VIRGA_PREPARED_NEWEST;
+        if (effect->type->draw)
+            result = scene_merge_results(result, effect->type->draw(effect, cmd, target, prepared));
+    }
+    return result;
+}
+
+static uint32_t views_of_this_frame(const virga_scene *scene)
+{
+    return scene->recorded_frame == scene->context->frame_index ? scene->view_count : 0;
+}
+
 virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
-        virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
-        if (effect->type->draw)
-            result = scene_merge_results(result, effect->type->draw(effect, cmd, target));
-    }
-    return result;
+    const uint32_t count = views_of_this_frame(scene);
+    if (count > 1)
+        return virga_wrong_argument(&scene->context->log,
+                                    "virga_scene_draw: the frame has %u views: expected virga_scene_draw_view", count);
+    return draw_all(scene, cmd, target, NULL);
+}
+
+virga_result virga_scene_draw_view(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target, uint32_t index)
+{
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    const uint32_t count = views_of_this_frame(scene);
+    if (index >= count)
+        return virga_wrong_argument(&scene->context->log,
+                                    "virga_scene_draw_view: there is no view %u, as this frame was recorded with %u",
+                                    index, count);
+    return draw_all(scene, cmd, target, scene->views[index]);
 }

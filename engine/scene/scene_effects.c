@@ -265,16 +265,37 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
 virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
                                        const virga_scene_pane *panes)
 {
+    return virga_scene_prepare_panes_view(scene, cmd, 0, view, panes);
+}
+
+/* The index of a pane among the scene's effects. */
+static uint32_t effect_of_pane(const virga_scene *scene, uint32_t pane)
+{
+    uint32_t at = 0;
+    while (scene->effects[at].kind->type != &glass_type || scene->effects[at].index != pane)
+        at++;
+    return at;
+}
+
+virga_result virga_scene_prepare_panes_view(virga_scene *scene, VkCommandBuffer cmd, uint32_t index,
+                                            const virga_view *view, const virga_scene_pane *panes)
+{
     if (!scene)
         return VIRGA_ERROR_INVALID;
     const uint32_t count = count_all_panes(scene);
+    if (index >= scene->max_views)
+        return virga_wrong_argument(&scene->context->log,
+                                    "virga_scene_prepare_panes_view: expected an index below scene_def.max_views = %u, "
+                                    "got %u",
+                                    scene->max_views, index);
     if (count && (!view || !panes))
         return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
                                     view ? "panes" : "view");
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < count && result >= 0; i++) {
         virga_glass *glass = scene_find(scene, &glass_type, i);
-        const virga_result prepared = virga_glass_prepare(glass, cmd, view, &panes[i].pose, virga_glass_time(glass));
+        const virga_result prepared = virga_glass_prepare_view(
+            glass, cmd, view, &panes[i].pose, virga_glass_time(glass), &scene->views[index][effect_of_pane(scene, i)]);
         result = scene_merge_results(result, prepared);
     }
     return result;

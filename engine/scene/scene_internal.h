@@ -53,6 +53,9 @@ struct virga_scene {
     bool far_logged;
     /* The frame that was recorded last, and the last frame in which it was logged that it was recorded again. */
     uint64_t recorded_frame, twice_frame;
+    /* The views of the frame that was recorded last, as each effect has prepared them, by index of the effect. */
+    virga_prepared views[VIRGA_MAX_VIEWS][SCENE_MAX_EFFECTS];
+    uint32_t view_count, max_views;
 };
 
 /* Effect number `index` of a type; NULL if the scene has no such effect. */

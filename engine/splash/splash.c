@@ -23,6 +23,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_spawns, 256, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
     DEF(U32, max_handed, 0, 1048576),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
 };
 /* clang-format on */
@@ -150,9 +151,11 @@ static const virga_effect_buffer buffers[] = {
     {"splash.handed", AT(handed), VIRGA_USE_INDIRECT, DEVICE, .entry = 1, .count = COUNT_HANDED_BYTES, .first = FILL},
     {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
     {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
-     .count = COUNT_LISTED},
-    {"splash.sprites", AT(sprites), VIRGA_USE_TEXELS, DEVICE, .entry = SPLASH_SPRITE_BYTES, .count = COUNT_DROPLETS},
-    {"splash.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_splash_prepared_gpu)},
+     .count = COUNT_LISTED, .per_view = true},
+    {"splash.sprites", AT(sprites), VIRGA_USE_TEXELS, DEVICE, .entry = SPLASH_SPRITE_BYTES, .count = COUNT_DROPLETS,
+     .per_view = true},
+    {"splash.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_splash_prepared_gpu),
+     .per_view = true},
     {"splash.indices", AT(index_buffer), VIRGA_USE_INDEX, DEVICE, .entry = sizeof(uint32_t), .count = COUNT_INDICES},
 };
 
@@ -205,9 +208,10 @@ static void describe(const void *object, char *line, size_t size)
              splash->def.max_droplets);
 }
 
-static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared)
 {
-    return virga_splash_prepare(object, cmd, view, time_s);
+    return virga_splash_prepare_view(object, cmd, view, time_s, prepared);
 }
 
 static virga_result check_settings(const void *object, void *settings, bool *changed)

@@ -98,8 +98,16 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
     return virga_bindings_write(context, splash->bindings, index, bound);
 }
 
-void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set)
 {
     const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
-    virga_bind(splash->base.context, cmd, point, splash->bindings, set, 3, offsets);
+    virga_bind(splash->base.context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->bindings, set, 3, offsets);
+}
+
+void splash_bind_view(virga_splash *splash, VkCommandBuffer cmd)
+{
+    const virga_effect_view *view = virga_effect_selected(&splash->base);
+    const splash_prepared *seen = &splash->prepared[splash->base.slot];
+    const uint32_t offsets[3] = {seen->tick_offset, view->offset, seen->rules_offset};
+    virga_bind(splash->base.context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->bindings, view->set, 3, offsets);
 }

@@ -83,17 +83,26 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd, VkDescript
     /* The previous draw, of this or an earlier frame, may still read lists and sprites. */
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES,
                VIRGA_PASSES | VIRGA_ARGUMENTS);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    splash_bind(splash, cmd, set);
     record_lists(splash, cmd, form & VIRGA_SPLASH_FORM_FILM);
     virga_dispatch_indirect(context, cmd, splash->sprite_write[form], splash->lists->buffer, 0);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_PREPARE, splash->prepared_buffer, 0,
-                                 offsetof(splash_readback, prepared), sizeof(virga_splash_prepared_gpu));
+                                 offsetof(splash_readback, prepared[virga_effect_view_index(&splash->base)]),
+                                 sizeof(virga_splash_prepared_gpu));
     virga_pass_end(context, cmd, scope);
 }
 
 virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
+    return virga_splash_prepare_view(splash, cmd, view, time_s, NULL);
+}
+
+virga_result virga_splash_prepare_view(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                                       virga_prepared *prepared)
+{
+    if (prepared)
+        *prepared = 0;
     if (!splash)
         return VIRGA_ERROR_INVALID;
     virga_context *context = splash->base.context;
@@ -112,10 +121,13 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
         return result;
     const VkDescriptorSet set = splash_write_set(splash, index, splash->current, view);
     record_prepare(splash, cmd, set, choose_form(splash));
-    virga_effect_set_view(&splash->base, set, view);
-    splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
-    splash->prepared_line_px = splash->settings.min_width_px + 1; /* as wide as quads, see sprite_corner.glsl */
-    splash->prepared_style = splash->settings.style;
+    virga_effect_set_view(&splash->base, set, splash->view_offset, view, prepared);
+    splash->prepared[splash->base.slot] =
+        (splash_prepared){.tick_offset = splash->tick_offset,
+                          .rules_offset = splash->rules_offset,
+                          .depth = view->depth.view != VK_NULL_HANDLE,
+                          .style = splash->settings.style,
+                          .line_px = splash->settings.min_width_px + 1}; /* as wide as quads, see sprite_corner.glsl */
     return virga_check_uploads(context);
 }
 
@@ -151,19 +163,19 @@ static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline
     virga_draw_indexed_indirect(splash->base.context, cmd, pipeline, splash->prepared_buffer->buffer, arguments);
 }
 
-virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target)
+virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                         const char *call)
 {
-    if (!splash)
-        return VIRGA_ERROR_INVALID;
     virga_context *context = splash->base.context;
     const virga_effect_target *found;
     virga_result result =
-        virga_effect_check_draw(&splash->base, "virga_splash_draw", cmd, target,
+        virga_effect_check_draw(&splash->base, call, cmd, target, prepared,
                                 splash->ticks ? virga_effect_ready(&splash->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
-    const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
-    const int depth = splash->prepared_depth;
+    const splash_prepared *seen = &splash->prepared[splash->base.slot];
+    const bool film = seen->style == VIRGA_SPLASH_STYLE_FILM;
+    const int depth = seen->depth;
     const virga_pipeline *used[] = {found->draws[(film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS) + depth],
                                     found->draws[(film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES) + depth],
                                     found->draws[(SPLASH_DRAW_THIN) + depth], found->draws[(SPLASH_DRAW_PUFFS) + depth],
@@ -173,13 +185,13 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     if (result)
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");
-    virga_set_draw_area(context, cmd, splash->base.view.viewport);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->base.view.set);
+    virga_set_draw_area(context, cmd, virga_effect_selected(&splash->base)->viewport);
+    splash_bind_view(splash, cmd);
     context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw(splash, cmd, used[0], offsetof(virga_splash_prepared_gpu, crowns));
     draw(splash, cmd, used[1], offsetof(virga_splash_prepared_gpu, wide_quads));
     if (has_lines) {
-        context->vk.CmdSetLineWidth(cmd, splash->prepared_line_px);
+        context->vk.CmdSetLineWidth(cmd, seen->line_px);
         draw(splash, cmd, used[4], offsetof(virga_splash_prepared_gpu, lines));
     }
     draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin_quads));

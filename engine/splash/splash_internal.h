@@ -41,8 +41,8 @@ enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL };
 
 /* The data that is read back for one frame. */
 typedef struct splash_readback {
-    virga_splash_state_gpu state;       /* written by the step */
-    virga_splash_prepared_gpu prepared; /* written by the prepare */
+    virga_splash_state_gpu state;                        /* written by the step */
+    virga_splash_prepared_gpu prepared[VIRGA_MAX_VIEWS]; /* written by the prepares */
 } splash_readback;
 
 enum { SPLASH_PART_STEP, SPLASH_PART_PREPARE }; /* parts of the statistics */
@@ -65,6 +65,14 @@ enum {
     SPLASH_DRAW_ROWS = 7
 };
 
+/* What draws need of a view besides virga_effect_view. */
+typedef struct splash_prepared {
+    uint32_t tick_offset, rules_offset;
+    bool depth;
+    virga_splash_style style;
+    float line_px; /* line width */
+} splash_prepared;
+
 /* A sprite and its motion. The buffer holds all sprites first, then the motion of all. */
 #define SPLASH_SPRITE_BYTES (sizeof(virga_sprite_gpu) + 16)
 
@@ -86,9 +94,11 @@ struct virga_splash {
 
     virga_buffer *droplet_buffers[2];
     uint32_t current; /* index of the one with the newest droplets */
-    virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *lists, *sprites,
-        *prepared_buffer, *index_buffer;
+    virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *index_buffer;
     virga_buffer *handed; /* NULL without def.max_handed */
+    VIRGA_PER_VIEW(virga_buffer, lists);
+    VIRGA_PER_VIEW(virga_buffer, sprites);
+    VIRGA_PER_VIEW(virga_buffer, prepared_buffer);
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
@@ -101,10 +111,8 @@ struct virga_splash {
     VkDescriptorSet step_sets[2]; /* by index of the current droplet buffer */
     VkBuffer spawns;
     VkDeviceSize spawns_offset, spawns_range;
-    const virga_splash_step_info *info; /* of the step that is being recorded; NULL at other times */
-    bool prepared_depth;
-    virga_splash_style prepared_style;
-    float prepared_line_px; /* line width */
+    const virga_splash_step_info *info;        /* of the step that is being recorded; NULL at other times */
+    splash_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_splash_stats stats;
 };
 
@@ -133,7 +141,10 @@ extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS], splash_recall_
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
 VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info);
-void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
+/* Binds a set for passes, with the newest tick, view and rules. */
+void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set);
+/* Binds the selected view for draws. */
+void splash_bind_view(virga_splash *splash, VkCommandBuffer cmd);
 
 /* ---- splash_spray.c */
 virga_result splash_spray_check(const virga_splash *splash, const virga_splash_step_info *info);
@@ -152,5 +163,7 @@ void splash_read_statistics(void *splash, uint64_t frame, uint32_t ring_slot, ui
 
 /* ---- splash_draw.c */
 extern const virga_effect_draw splash_draws[SPLASH_DRAW_ROWS];
+virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                         const char *call);
 
 #endif

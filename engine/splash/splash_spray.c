@@ -101,7 +101,7 @@ void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_
     if (info->leavers)
         recall(splash, cmd, info);
     splash_push_tick(splash, info, info->ticks, still);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
+    splash_bind(splash, cmd, splash->step_sets[splash->current]);
     virga_dispatch_indirect_and_barrier(context, cmd, splash->adopt, splash->handed->buffer,
                                         offsetof(virga_handed_droplets_gpu, group_count));
     virga_dispatch_and_barrier(context, cmd, splash->adopt_end, 1);

@@ -39,20 +39,27 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->droplets_alive = state->staying;
 }
 
+static void read_views(virga_splash_stats *stats, uint32_t views, const virga_splash_prepared_gpu *prepared)
+{
+    const virga_splash_prepared_gpu *newest = &prepared[views - 1];
+    stats->views = views;
+    for (uint32_t i = 0; i < VIRGA_MAX_VIEWS; i++)
+        stats->view_sprites[i] = i < views ? prepared[i].sprites : 0;
+    stats->sprites = newest->sprites;
+    stats->sprites_dropped = newest->cut[0];
+    stats->sheets_dropped = newest->cut[1];
+}
+
 /* A frame may have a prepare without a step, or a step without a prepare: `parts` has a bit for each. */
 void splash_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
-    (void)ring_slot;
     virga_splash_stats *stats = &((virga_splash *)object)->stats;
     splash_readback read;
     memcpy(&read, data, sizeof read);
     if (parts & 1u << SPLASH_PART_STEP)
         read_state(stats, frame, &read.state);
-    if (parts & 1u << SPLASH_PART_PREPARE) {
-        stats->sprites = read.prepared.sprites;
-        stats->sprites_dropped = read.prepared.cut[0];
-        stats->sheets_dropped = read.prepared.cut[1];
-    }
+    if (parts & 1u << SPLASH_PART_PREPARE)
+        read_views(stats, ((virga_splash *)object)->base.readback_views[ring_slot], read.prepared);
 }
 
 /* Goes back to the droplets and the anchor of the lost step. After a later step they can not: then droplets jump by a
@@ -117,7 +124,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     virga_context *context = splash->base.context;
     const double still[3] = {0, 0, 0};
     splash_push_tick(splash, info, i, still);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
+    splash_bind(splash, cmd, splash->step_sets[splash->current]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
     virga_dispatch_and_barrier(splash->base.context, cmd, splash->spawn_scan, 1);
     over(splash, cmd, splash->spawn, offsetof(virga_splash_state_gpu, spawn_groups));
@@ -150,7 +157,7 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
         const uint32_t max =
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
         splash_push_tick(splash, info, 0, shift);
-        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
+        splash_bind(splash, cmd, splash->step_sets[splash->current]);
         virga_dispatch_and_barrier(splash->base.context, cmd, splash->rebase,
                                    (max + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
     }
@@ -163,7 +170,7 @@ static void write_indices(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->base.context;
     const uint32_t sprites = splash_max_sprites(&splash->def);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[0]);
+    splash_bind(splash, cmd, splash->step_sets[0]);
     context->vk.CmdPushConstants(cmd, splash->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof sprites, &sprites);
     virga_dispatch(context, cmd, splash->indices, 1024);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
@@ -201,7 +208,7 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     virga_context *context = splash->base.context;
     virga_effect_begin_step(&splash->base, cmd);
     splash_push_rules(splash);
-    splash->base.view.ready = false;
+    virga_effect_forget_views(&splash->base, 0);
     splash->spawns = info->spawns;
     splash->spawns_offset = info->spawns_offset;
     splash->spawns_range = virga_host_list_range(

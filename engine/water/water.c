@@ -19,10 +19,15 @@
 /* ---- defaults */
 
 static const virga_setting_row def_rows[] = {
-    DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
-    DEF(U32, max_blocks, 64, 1048576, 32768),    DEF(U32, max_surfels, 256, 8388608, 262144),
-    DEF(U32, max_spray, 64, 262144, 4096),       DEF(U32, max_droplets, 256, 4194304, 65536),
-    DEF(U32, max_width, 0, 16384, 1920),         DEF(U32, max_height, 0, 16384, 1080),
+    DEF(U32, max_particles, 64, 8388608, 65536),
+    DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_blocks, 64, 1048576, 32768),
+    DEF(U32, max_surfels, 256, 8388608, 262144),
+    DEF(U32, max_spray, 64, 262144, 4096),
+    DEF(U32, max_droplets, 256, 4194304, 65536),
+    DEF(U32, max_width, 0, 16384, 1920),
+    DEF(U32, max_height, 0, 16384, 1080),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -175,7 +180,7 @@ static const virga_effect_ring rings[] = {
 static const virga_effect_image images[] = {
     {"water.thickness", AT(picture.thickness), VK_FORMAT_R32_SFLOAT, COLOR,
      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_PYRAMID_COLUMNS, COUNT_PYRAMID_ROWS, 1,
-     VIRGA_FIRST_STORAGE},
+     VIRGA_FIRST_STORAGE, .per_view = true},
     BLANK_DEPTH("water.blank_depth", picture.blank_depth),
     BLANK_COLOR("water.blank_color", picture.blank_color),
 };
@@ -312,10 +317,12 @@ static VkDeviceSize extra_bytes(const void *def)
 }
 
 /* For scenes: water without a size is not drawn, which is no error there. */
-static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared)
 {
     (void)time_s; /* the host's particles are at that time */
-    return ((virga_water *)object)->def.max_width ? virga_water_prepare(object, cmd, view) : VIRGA_OK;
+    *prepared = 0;
+    return ((virga_water *)object)->def.max_width ? virga_water_prepare_view(object, cmd, view, prepared) : VIRGA_OK;
 }
 
 static void describe(const void *object, char *line, size_t size)
@@ -326,10 +333,13 @@ static void describe(const void *object, char *line, size_t size)
 
 VIRGA_EFFECT_FUNCTIONS(water)
 VIRGA_EFFECT_STATISTICS_FUNCTION(water)
+VIRGA_EFFECT_VIEW_FUNCTIONS(water)
 
-static virga_result water_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)
+/* For scenes, as `prepare`. */
+static virga_result draw_if_sized(void *object, VkCommandBuffer cmd, const virga_target *target,
+                                  virga_prepared prepared)
 {
-    return ((virga_water *)object)->def.max_width ? virga_water_draw(object, cmd, target) : VIRGA_OK;
+    return ((virga_water *)object)->def.max_width ? water_type_draw(object, cmd, target, prepared) : VIRGA_OK;
 }
 
 const virga_effect_type water_type = {
@@ -344,7 +354,8 @@ const virga_effect_type water_type = {
     .draw_count = 1,
     .draw_layout = WATER_LAYOUT_DRAW,
     .prepare = prepare,
-    .draw = water_type_draw,
+    .draw = draw_if_sized,
+    .max_views = offsetof(virga_water_def, max_views),
 };
 
 /* ---- queries */

@@ -109,9 +109,10 @@ static VkDescriptorSet write_set(virga_water *water, uint32_t index, const virga
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
 
-static void bind(virga_water *water, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+static void bind(virga_water *water, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set,
+                 uint32_t view_offset)
 {
-    virga_bind(water->base.context, cmd, point, water->picture.bindings, set, 1, &water->picture.view_offset);
+    virga_bind(water->base.context, cmd, point, water->picture.bindings, set, 1, &view_offset);
 }
 
 /* Waits for draws of an earlier prepare, and clears what is counted up. */
@@ -164,7 +165,7 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.splats");
     virga_offscreen_begin(context, cmd, picture->sums, 0);
     virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
-    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, picture->view_offset);
     for (int i = 0; i < 2; i++) {
         context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]->pipeline);
         context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, 0, 1, 0);
@@ -175,6 +176,14 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
 
 virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view)
 {
+    return virga_water_prepare_view(water, cmd, view, NULL);
+}
+
+virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, const virga_view *view,
+                                      virga_prepared *prepared)
+{
+    if (prepared)
+        *prepared = 0;
     if (!water)
         return VIRGA_ERROR_INVALID;
     virga_context *context = water->base.context;
@@ -184,6 +193,7 @@ virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const 
     if (result)
         return result;
     virga_timers_reset(context, cmd);
+    picture->sums = picture->sums_of_view[water->base.slot];
     water_view_block block;
     uint32_t index;
     fill_view(water, view, &block);
@@ -193,13 +203,14 @@ virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const 
         return result;
     const VkDescriptorSet set = write_set(water, index, view);
     record_clear(water, cmd);
-    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, picture->view_offset);
     record_volumes(water, cmd, &block.look);
     record_list(water, cmd);
     record_splats(water, cmd, set, &block.look);
-    virga_effect_set_view(&water->base, set, view);
-    picture->look = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
-                    (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
+    virga_effect_set_view(&water->base, set, picture->view_offset, view, prepared);
+    picture->look[water->base.slot] = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) |
+                                      (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
+                                      (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
     return virga_check_uploads(context);
 }
 
@@ -220,24 +231,24 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
     return virga_effect_attach(&water->base, "virga_water_attach", target);
 }
 
-virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target)
+virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                        const char *call)
 {
-    if (!water)
-        return VIRGA_ERROR_INVALID;
     virga_context *context = water->base.context;
     const virga_effect_target *found;
     const bool stepped = water->def.max_width && water->base.contents;
-    virga_result result = virga_effect_check_draw(&water->base, "virga_water_draw", cmd, target,
+    virga_result result = virga_effect_check_draw(&water->base, call, cmd, target, prepared,
                                                   stepped ? virga_effect_ready(&water->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
-    const virga_pipeline *used = found->draws[water->picture.look];
+    const virga_pipeline *used = found->draws[water->picture.look[water->base.slot]];
     result = virga_pipelines_ready(&used, 1);
     if (result)
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "water.draw");
-    virga_set_draw_area(context, cmd, water->base.view.viewport);
-    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, water->base.view.set);
+    const virga_effect_view *view = virga_effect_selected(&water->base);
+    virga_set_draw_area(context, cmd, view->viewport);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used->pipeline);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(context, cmd, scope);

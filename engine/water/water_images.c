@@ -32,7 +32,7 @@ uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_W
 
 VkDeviceSize water_images_bytes(const virga_water_def *def)
 {
-    return (VkDeviceSize)def->max_width * def->max_height * (16 + 4 + 4);
+    return def->max_views * (VkDeviceSize)def->max_width * def->max_height * (16 + 4 + 4);
 }
 
 /* ---- creation */
@@ -97,7 +97,9 @@ virga_result water_images_create(virga_water *water)
     if (result)
         return result;
     water_pyramid_texels(&water->def, picture->volume_first);
-    TRY(virga_offscreen_create(context, &def, &picture->sums));
+    for (uint32_t i = 0; i < water->base.max_views; i++)
+        TRY(virga_offscreen_create(context, &def, &picture->sums_of_view[i]));
+    picture->sums = picture->sums_of_view[0];
     TRY(create_pipelines(water));
 error:
     return result;
@@ -109,5 +111,6 @@ void water_images_retire(virga_water *water)
     water_picture *picture = &water->picture;
     VIRGA_RETIRE(context, picture->splat_depth);
     VIRGA_RETIRE(context, picture->splat_sum);
-    virga_offscreen_retire(context, &picture->sums);
+    for (uint32_t i = 0; i < water->base.max_views; i++)
+        virga_offscreen_retire(context, &picture->sums_of_view[i]);
 }

@@ -44,8 +44,8 @@ typedef struct water_view_block {
 /* What a view is drawn from. Without max_width all of it is empty. */
 typedef struct water_picture {
     virga_buffer *picks, *list, *splats, *prepared, *pyramid;
-    virga_offscreen *sums; /* sums of splats, sums of their motion, depth */
-    virga_image_2d *thickness;
+    VIRGA_PER_VIEW(virga_offscreen, sums); /* sums of splats, sums of their motion, depth */
+    VIRGA_PER_VIEW(virga_image_2d, thickness);
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest block */
@@ -54,7 +54,7 @@ typedef struct water_picture {
     virga_pipeline *splat_depth, *splat_sum;
     virga_image panorama;
     uint32_t volume_first[VIRGA_WATER_VOLUME_LEVELS];
-    uint32_t look; /* VIRGA_WATER_LOOK_... bits of the newest prepare */
+    uint32_t look[VIRGA_MAX_VIEWS]; /* VIRGA_WATER_LOOK_... bits, by index of the view */
 } water_picture;
 
 /* The spray. */
@@ -120,6 +120,8 @@ uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_W
 
 /* ---- water_draw.c */
 extern const virga_effect_draw water_draws[1];
+virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                        const char *call);
 extern const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS];
 
 #endif

@@ -238,7 +238,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     virga_context *context = water->base.context;
     const uint32_t particles = info->count < water->def.max_particles ? info->count : water->def.max_particles;
     virga_water_step_gpu step;
-    water->base.view.ready = false;
+    virga_effect_forget_views(&water->base, 0);
     memcpy(water->origin_m, info->origin_m, sizeof water->origin_m);
     water->step_particles[context->ring_slot] = particles;
     fill_step(water, particles, &step);

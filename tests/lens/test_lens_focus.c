@@ -48,6 +48,50 @@ static void the_focus_eases_to_a_new_depth(void **state)
     lens_fixture_close(&f);
 }
 
+/* Two views of a frame, at different focus: each picture is what it is alone, and each follows its own focus. */
+static void two_views_have_their_own_pictures(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    virga_lens_def def = virga_default_lens_def();
+    virga_prepared prepared[2];
+    virga_lens_image pictures[2], newest;
+    host_image images[2][2];
+    lens_fixture_open(&f, 16, 16, false);
+    virga_lens_destroy(&f.lens);
+    def.max_width = def.max_height = 16;
+    def.max_views = 2;
+    REQUIRE(virga_lens_create(f.context, &def, &f.lens) == VIRGA_OK);
+    f.settings.follow = 1;
+    f.settings.focus_time_s = 0.5f;
+    REQUIRE(virga_lens_set(f.lens, &f.settings) == VIRGA_OK);
+    for (int frame = 0; frame < 2; frame++) {
+        virga_view views[2] = {f.view, f.view};
+        for (int view = 0; view < 2; view++) {
+            lens_paint_all(&f.scene, 0.5f, view ? 8 : 2);
+            views[view].color = lens_upload(&f, &f.scene, false, &images[view][0]);
+            views[view].depth = lens_upload(&f, &f.scene, true, &images[view][1]);
+        }
+        const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+        for (int view = 0; view < 2; view++)
+            REQUIRE(virga_lens_prepare_view(f.lens, cmd, &views[view], NULL, 0, 0.1 * frame, &prepared[view]) ==
+                    VIRGA_OK);
+        for (int view = 0; view < 2; view++)
+            virga_lens_picture_view(f.lens, prepared[view], &pictures[view]);
+        virga_lens_picture(f.lens, &newest);
+        effect_fixture_complete(&f.gpu, f.context);
+        for (int view = 0; view < 4; view++)
+            host_image_destroy(&f.gpu.device, &images[view / 2][view % 2]);
+        virga_lens_stats stats;
+        virga_lens_stats_get(f.lens, &stats);
+        assert_int_equal(stats.views, 2);
+        assert_float_equal(stats.view_focus_m[0], 2, 1e-4); /* it never saw the other depth */
+        assert_float_equal(stats.view_focus_m[1], 8, 1e-4);
+        assert_true(pictures[0].image != pictures[1].image && newest.image == pictures[1].image);
+    }
+    lens_fixture_close(&f);
+}
+
 static void without_depth_all_is_sharp(void **state)
 {
     (void)state;
@@ -92,11 +136,9 @@ static void breathing_is_that_of_a_thin_lens(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_focus_follows_the_depth_at_the_point),
-        cmocka_unit_test(the_focus_eases_to_a_new_depth),
-        cmocka_unit_test(without_depth_all_is_sharp),
-        cmocka_unit_test(a_view_gets_the_lens_for_its_streaks),
-        cmocka_unit_test(breathing_is_that_of_a_thin_lens),
+        cmocka_unit_test(the_focus_follows_the_depth_at_the_point), cmocka_unit_test(the_focus_eases_to_a_new_depth),
+        cmocka_unit_test(two_views_have_their_own_pictures),        cmocka_unit_test(without_depth_all_is_sharp),
+        cmocka_unit_test(a_view_gets_the_lens_for_its_streaks),     cmocka_unit_test(breathing_is_that_of_a_thin_lens),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

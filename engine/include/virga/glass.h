@@ -39,7 +39,7 @@ extern "C" {
 typedef struct virga_glass virga_glass; /* opaque */
 
 #define VIRGA_GLASS_MAX_WIPERS 8
-#define VIRGA_GLASS_MAX_VIEWS  4 /* prepares in a frame */
+#define VIRGA_GLASS_MAX_VIEWS  8 /* prepares in a frame */
 
 typedef struct virga_glass_def {
     uint32_t size, cookie;
@@ -77,6 +77,10 @@ typedef struct virga_glass_def {
     /* Fills the whole height map for virga_glass_map_get, also where there is only fine film. Costs time for every
      * texel instead of only those with drops. Default false. */
     bool height_map;
+
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs
+     * 37 bytes per texel, and 0.8 MB. Default 1. */
+    uint32_t max_views;
 
     /* [1; 64] the same as the rain's. Default 16. */
     uint32_t max_ticks_per_step;
@@ -558,10 +562,15 @@ typedef struct virga_glass_pose {
 } virga_glass_pose;
 
 /* Makes the height map of what a view sees of the pane at `time_s`: normally virga_glass_time, or a part of a tick
- * before it. Outside rendering, after the step, directly before the draw of that view. At most VIRGA_GLASS_MAX_VIEWS
- * per frame. If view.color is given it must hold the scene by then. */
+ * before it. Outside rendering, after the step. At most VIRGA_GLASS_MAX_VIEWS per frame. With def.max_views 1 the draw
+ * of a view comes before the next prepare. If view.color is given it must hold the scene by then. */
 VIRGA_API virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
                                            const virga_glass_pose *pose, double time_s);
+
+/* The same, and *prepared (may be NULL) gets the view's handle for virga_glass_draw_view; 0 if nothing was prepared. Up
+ * to def.max_views of them live at the same time. */
+VIRGA_API virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                                const virga_glass_pose *pose, double time_s, virga_prepared *prepared);
 
 /* Builds the pipelines for a target; at most 8 targets. Do not call it in a frame that must be on time. */
 VIRGA_API virga_result virga_glass_attach(virga_glass *glass, const virga_target *target);
@@ -572,10 +581,19 @@ VIRGA_API virga_result virga_glass_attach(virga_glass *glass, const virga_target
  * nothing, if the target was not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
 
+/* The same for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was not,
+ * or that a later prepare has replaced. */
+VIRGA_API virga_result virga_glass_draw_view(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target,
+                                             virga_prepared prepared);
+
 /* The same, but draws where drops look up the plate: the offset from the pixel in pixels, as red (x, to the right) and
  * green (y, down), with the coverage in blue and alpha. Not blended. It is a layer with which a compositor distorts
  * another plate. Offsets may point beyond the borders of the picture, for a plate that is larger. */
 VIRGA_API virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
+
+/* The same for any view that was prepared in this frame, as virga_glass_draw_view. */
+VIRGA_API virga_result virga_glass_draw_refraction_view(virga_glass *glass, VkCommandBuffer cmd,
+                                                        const virga_target *target, virga_prepared prepared);
 
 /* The height map of the newest prepare, in VK_IMAGE_LAYOUT_GENERAL. All zero unless the pane was created with
  * virga_glass_def.height_map.
@@ -621,6 +639,9 @@ typedef struct virga_glass_stats {
     /* Of the newest prepare: metaballs; and entries of the lists of tiles that found no room. If there are any, tiles
      * with more than an equal share of the entries show no drops. */
     uint32_t balls, ball_entries_dropped;
+
+    /* Prepares of that frame (at most VIRGA_MAX_VIEWS are listed), and the metaballs of each, in their order. */
+    uint32_t views, view_balls[VIRGA_MAX_VIEWS];
 } virga_glass_stats;
 
 VIRGA_API void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats);

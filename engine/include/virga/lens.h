@@ -42,6 +42,11 @@ typedef struct virga_lens_def {
     /* 0 or 1. 1: blurs a picture of half the width and height, for games. What is in focus stays as sharp as it is.
      * The cost falls to about a tenth for the same blur. Default 0. */
     uint32_t half_resolution;
+
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each follows its own focus
+     * if the views of a frame are prepared in the same order. Each further one costs 64 bytes per pixel, or 22 at
+     * half resolution. Default 1. */
+    uint32_t max_views;
 } virga_lens_def;
 
 VIRGA_API virga_lens_def virga_default_lens_def(void);
@@ -146,8 +151,8 @@ typedef struct virga_lens_layer {
 } virga_lens_layer;
 
 /* Blurs view->color by view->depth, and puts the layers over it, the first one first. Outside rendering, once per
- * frame. Without view->depth the scene is in focus everywhere. Color that is NaN counts as 0; other values are clamped
- * to +-65504.
+ * frame, or up to VIRGA_MAX_VIEWS times for as many views. Without view->depth the scene is in focus everywhere. Color
+ * that is NaN counts as 0; other values are clamped to +-65504.
  *
  * VIRGA_ERROR_INVALID: the view has no color, its viewport is larger than the definition's, or a layer is wrong.
  *
@@ -155,6 +160,12 @@ typedef struct virga_lens_layer {
  * tile of 16 x 16 pixels. */
 VIRGA_API virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
                                           const virga_lens_layer *layers, uint32_t layer_count, double time_s);
+
+/* The same, and *prepared (may be NULL) gets the view's handle for virga_lens_draw_view; 0 if nothing was prepared. Up
+ * to def.max_views of them live at the same time. */
+VIRGA_API virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
+                                               const virga_lens_layer *layers, uint32_t layer_count, double time_s,
+                                               virga_prepared *prepared);
 
 /* Builds the pipeline for a target. Errors as virga_target_create. Another call with the same target does nothing. */
 VIRGA_API virga_result virga_lens_attach(virga_lens *lens, const virga_target *target);
@@ -166,9 +177,16 @@ VIRGA_API virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, co
 /* (physical) Writes one part of the picture into the target instead, over its viewport: 0 is the scene without layers,
  * 1 the first layer, and so on. Layers are premultiplied, and cut by what of the scene is out of focus before
  * them. So a host can put them over the scene in their order. Inside rendering; view.color and the images of the layers
- * are read again. Errors as virga_lens_draw; VIRGA_ERROR_INVALID for a part that the newest prepare did not have. */
+ * are read again. Errors as virga_lens_draw; VIRGA_ERROR_INVALID for a part that the prepare did not have. */
 VIRGA_API virga_result virga_lens_draw_part(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target,
                                             uint32_t part);
+
+/* The same two for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was
+ * not, or that a later prepare has replaced. */
+VIRGA_API virga_result virga_lens_draw_view(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target,
+                                            virga_prepared prepared);
+VIRGA_API virga_result virga_lens_draw_part_view(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target,
+                                                 virga_prepared prepared, uint32_t part);
 
 /* The picture of the newest prepare: R16G16B16A16_SFLOAT, its pixel (0, 0) is the viewport's first. Its layout is
  * VK_IMAGE_LAYOUT_GENERAL. Ready to be read by compute and fragment shaders and transfers after the prepare. */
@@ -179,6 +197,9 @@ typedef struct virga_lens_image {
 } virga_lens_image;
 
 VIRGA_API void virga_lens_picture(const virga_lens *lens, virga_lens_image *picture);
+
+/* The same of any view that was prepared in this frame. All zero, with a line in the log, if there is no such view. */
+VIRGA_API void virga_lens_picture_view(virga_lens *lens, virga_prepared prepared, virga_lens_image *picture);
 
 /* Sets aperture_m and focus_m of a view to this lens, so that rain streaks are as wide as it blurs them. Such streaks
  * belong on the picture after virga_lens_draw, or into a layer at the focus. With `follow` it uses the newest known
@@ -194,6 +215,10 @@ VIRGA_API double virga_lens_breathing(double focal_m, double focus_m);
 typedef struct virga_lens_stats {
     uint64_t frame_index; /* 0: none yet */
     float focus_m;        /* view depth that was sharp; infinite: infinity */
+
+    /* Prepares of that frame (at most VIRGA_MAX_VIEWS are listed), and the focus of each, in their order. */
+    uint32_t views;
+    float view_focus_m[VIRGA_MAX_VIEWS];
 } virga_lens_stats;
 
 VIRGA_API void virga_lens_stats_get(virga_lens *lens, virga_lens_stats *stats);

@@ -74,6 +74,10 @@ typedef struct virga_rain_def {
      * all. Default 0. */
     uint32_t max_panes;
 
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs
+     * 108 bytes per streak. Default 1. */
+    uint32_t max_views;
+
     /* Allocates the buffer of virga_rain_write_points: 48 bytes per slot. Default false. */
     bool points;
 
@@ -282,10 +286,15 @@ VIRGA_API void virga_rain_rainfall_get(const virga_rain *rain, virga_rainfall *f
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s`: normally virga_rain_time, but any time within a tick or two of it is
- * exact. Outside rendering, after the step or in a frame without one. Call it once per view, directly before the draw
- * of that view, and at most VIRGA_RAIN_MAX_VIEWS times per frame. Costs one pass over all slots, and one over the
- * visible ones. */
+ * exact. Outside rendering, after the step or in a frame without one. Call it once per view, at most
+ * VIRGA_RAIN_MAX_VIEWS times per frame. With def.max_views 1 the draw of a view comes before the next prepare. Costs
+ * one pass over all slots, and one over the visible ones. */
 VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s);
+
+/* The same, and *prepared (may be NULL) gets the view's handle for virga_rain_draw_view; 0 if nothing was prepared. Up
+ * to def.max_views of them live at the same time. */
+VIRGA_API virga_result virga_rain_prepare_view(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
+                                               double time_s, virga_prepared *prepared);
 
 /* Builds the pipelines for a target; at most 8 targets per rain. On software Vulkan a pipeline that is not cached takes
  * 20 to 75 ms, so do not call it in a frame that must be on time. */
@@ -307,6 +316,13 @@ typedef enum virga_rain_parts {
  * `parts` has no bit of them, or another one. */
 VIRGA_API virga_result virga_rain_draw_parts(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target,
                                              uint32_t parts);
+
+/* The same two for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was
+ * not, or that a later prepare has replaced. */
+VIRGA_API virga_result virga_rain_draw_view(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target,
+                                            virga_prepared prepared);
+VIRGA_API virga_result virga_rain_draw_parts_view(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target,
+                                                  virga_prepared prepared, uint32_t parts);
 
 /* Draws haze and the glow of lamps alone, as another view sees them: over the reflected world of puddles, mirrors and
  * probes, where it rains too. There are no streaks in it; haze stands for all of the rain.
@@ -373,15 +389,17 @@ VIRGA_API virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer
 
 /* The newest statistics of completed frames. They are late by the frames in flight, see virga_frame_completed. */
 typedef struct virga_rain_stats {
-    uint64_t frame_index;     /* frame in which they were recorded; 0: none yet */
-    double time_s;            /* simulated time */
-    uint32_t ticks;           /* that this step ran */
-    uint32_t slots;           /* in all */
-    uint32_t impacts;         /* of this step, written */
-    uint32_t impacts_dropped; /* of this step, that found no room; impact_water_nl includes their water */
-    uint32_t streaks;         /* of the newest prepare of that frame */
-    uint64_t impact_water_nl; /* water (1e-9 l) that landed in this step, with weights */
-    uint64_t total_water_nl;  /* water that has landed since creation */
+    uint64_t frame_index;                   /* frame in which they were recorded; 0: none yet */
+    double time_s;                          /* simulated time */
+    uint32_t ticks;                         /* that this step ran */
+    uint32_t slots;                         /* in all */
+    uint32_t impacts;                       /* of this step, written */
+    uint32_t impacts_dropped;               /* of this step, that found no room; impact_water_nl includes their water */
+    uint32_t streaks;                       /* of the newest prepare of that frame */
+    uint32_t views;                         /* prepares of that frame; at most VIRGA_MAX_VIEWS are listed */
+    uint32_t view_streaks[VIRGA_MAX_VIEWS]; /* of each of them, in their order */
+    uint64_t impact_water_nl;               /* water (1e-9 l) that landed in this step, with weights */
+    uint64_t total_water_nl;                /* water that has landed since creation */
     /* within this distance of the camera each slot is one real drop, at the current rate */
     float real_drop_radius_m;
     float wind_m_s[3]; /* wind of the newest tick, including the gust */

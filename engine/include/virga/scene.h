@@ -51,6 +51,10 @@ typedef struct virga_scene_def {
     bool with_water;
 
     virga_water_def water;
+
+    /* [1; VIRGA_MAX_VIEWS] views of a frame. It is copied to all effects, and costs what their max_views costs. Default
+     * 1. */
+    uint32_t max_views;
 } virga_scene_def;
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
@@ -134,7 +138,14 @@ typedef struct virga_scene_frame {
     /* (optional) Materials of the ground, over those of its meshes. */
     virga_ground_material_map materials;
 
-    /* (optional) The view to prepare. NULL: the scene is only stepped. */
+    /* (optional) The views to prepare: view_count of them, for virga_scene_draw_view. More than scene_def.max_views are
+     * refused. They share one step: `camera_m` should be near all of them. NULL and 0: the scene is only stepped, or
+     * has the one view of `view`. Each costs one prepare of each effect. */
+    const virga_view *views;
+    uint32_t view_count;
+
+    /* (optional) The view to prepare, for hosts with one; not together with `views`. NULL: the scene is only
+     * stepped. */
     const virga_view *view;
 
     /* One per pane of the scene. May be NULL if it has none. */
@@ -169,6 +180,10 @@ VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cm
 VIRGA_API virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
                                                  const virga_scene_pane *panes);
 
+/* The same for one of several views: the one at `index` of the frame's views. */
+VIRGA_API virga_result virga_scene_prepare_panes_view(virga_scene *scene, VkCommandBuffer cmd, uint32_t index,
+                                                      const virga_view *view, const virga_scene_pane *panes);
+
 /* Builds the pipelines of all effects for a target, see virga_rain_attach. */
 VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target *target);
 
@@ -176,8 +191,14 @@ VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target
  * host that wants them in separate layers draws each with its own function.
  *
  * VIRGA_NOT_READY: something was not prepared, or `target` was not attached to it; the rest is drawn. Unless pipelines
- * are still being built, that is logged once (VIRGA_LOG_NOT_DRAWN). */
+ * are still being built, that is logged once (VIRGA_LOG_NOT_DRAWN). VIRGA_ERROR_INVALID: the frame has several
+ * views. */
 VIRGA_API virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target);
+
+/* The same for one of several views: the one at `index` of the frame's views. In any order, in one pass or several.
+ * VIRGA_ERROR_INVALID: the frame has fewer views. */
+VIRGA_API virga_result virga_scene_draw_view(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target,
+                                             uint32_t index);
 
 #ifdef __cplusplus
 }

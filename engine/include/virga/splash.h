@@ -42,7 +42,7 @@ extern "C" {
 
 typedef struct virga_splash virga_splash; /* opaque */
 
-#define VIRGA_SPLASH_MAX_VIEWS 4 /* prepares in a frame */
+#define VIRGA_SPLASH_MAX_VIEWS 8 /* prepares in a frame */
 #define VIRGA_SPLASH_MAX_PANES 8 /* that spray may hit */
 
 typedef struct virga_splash_def {
@@ -67,6 +67,10 @@ typedef struct virga_splash_def {
     /* [0; 1048576] droplets that water may hand over in a step, 48 bytes each. 0: there is no list for them. Default
      * 0. */
     uint32_t max_handed;
+
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs
+     * 85 bytes per droplet. Default 1. */
+    uint32_t max_views;
 
     /* [1; 64] the same as the rain's. Default 16. */
     uint32_t max_ticks_per_step;
@@ -279,10 +283,16 @@ VIRGA_API virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer c
 VIRGA_API double virga_splash_time(const virga_splash *splash);
 
 /* Selects and shades what a view sees at `time_s`: normally virga_splash_time, or a part of a tick before or after.
- * Outside rendering, after the step. Call it once per view, directly before the draw of that view, and at most
- * VIRGA_SPLASH_MAX_VIEWS times per frame. */
+ * Outside rendering, after the step. Call it once per view, at most VIRGA_SPLASH_MAX_VIEWS times per frame. With
+ * def.max_views 1 the draw of a view comes before the next prepare. Costs passes over all live splashes and droplets,
+ * and one over the visible ones. */
 VIRGA_API virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view,
                                             double time_s);
+
+/* The same, and *prepared (may be NULL) gets the view's handle for virga_splash_draw_view; 0 if nothing was prepared.
+ * Up to def.max_views of them live at the same time. */
+VIRGA_API virga_result virga_splash_prepare_view(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view,
+                                                 double time_s, virga_prepared *prepared);
 
 /* Builds the pipelines for a target; at most 8 targets. Do not call it in a frame that must be on time. */
 VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_target *target);
@@ -291,6 +301,11 @@ VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_tar
  * rendering of `target`. Sets pipeline, descriptors, viewport and scissor. Returns VIRGA_NOT_READY, and draws nothing,
  * if the target was not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target);
+
+/* The same for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was not,
+ * or that a later prepare or step has replaced. */
+VIRGA_API virga_result virga_splash_draw_view(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target,
+                                              virga_prepared prepared);
 
 /* Reads where the droplets of the newest tick are: def.max_droplets (as raised) x virga_droplet_gpu, the live ones
  * first, with VIRGA_DROPLET_ALIVE; positions are relative to `anchor_m`. It may be another buffer after each step.
@@ -328,6 +343,9 @@ typedef struct virga_splash_stats {
     /* Of the newest prepare: those that found no room. There is room for max_droplets sprites, and for a tenth as many
      * sheets. */
     uint32_t sprites_dropped, sheets_dropped;
+
+    /* Prepares of that frame (at most VIRGA_MAX_VIEWS are listed), and the sprites of each, in their order. */
+    uint32_t views, view_sprites[VIRGA_MAX_VIEWS];
 } virga_splash_stats;
 
 VIRGA_API void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats);

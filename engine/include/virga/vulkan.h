@@ -12,7 +12,7 @@
  *     virga_frame_begin(context, frame_index, completed_index);
  *     virga_rain_draw_occlusion(rain, cmd, ...);      // outside rendering
  *     virga_rain_step(rain, cmd, ...);           // outside rendering
- *     virga_rain_prepare(rain, cmd, ...);        // outside rendering, once per view
+ *     virga_rain_prepare(rain, cmd, ...);        // outside rendering, once per view, see virga_prepared
  *     ... host begins rendering its scene ...
  *     virga_rain_draw(rain, cmd, ...);           // inside rendering, after the opaque scene
  *     ... host ends rendering, submits, and reports in a later frame that this one has completed ...
@@ -532,6 +532,25 @@ typedef struct virga_view {
 } virga_view;
 
 VIRGA_API virga_view virga_default_view(void);
+
+/* Largest max_views of a definition. */
+#define VIRGA_MAX_VIEWS 8
+
+/* A view that an effect has prepared in this frame: a number that its draws take. 0: none.
+ *
+ * For one view at a time it is not needed: draw without it draws what was prepared last. Several views (split screen,
+ * portals, stereo, mirrors) live in one frame side by side if the effect was created for them, by max_views in its
+ * definition:
+ *
+ *     virga_prepared left, right;                                       // outside rendering
+ *     virga_rain_prepare_view(rain, cmd, &left_view, time_s, &left);
+ *     virga_rain_prepare_view(rain, cmd, &right_view, time_s, &right);
+ *     virga_rain_draw_view(rain, cmd, target, left);                    // inside rendering, in any order, also twice
+ *     virga_rain_draw_view(rain, cmd, target, right);
+ *
+ * It is valid from its prepare to the end of the frame, or until max_views further prepares or a step of the effect. A
+ * draw refuses any other, and one of another effect, with VIRGA_ERROR_INVALID. */
+typedef uint64_t virga_prepared;
 
 #ifdef __cplusplus
 }

@@ -72,6 +72,10 @@ typedef struct virga_water_def {
      * surfel. Larger views are drawn at this resolution. Default 1920 x 1080. If one is 0, the water can not be drawn,
      * and nothing is allocated for it. */
     uint32_t max_width, max_height;
+
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs 24
+     * bytes per pixel of max_width x max_height. Default 1. */
+    uint32_t max_views;
 } virga_water_def;
 
 VIRGA_API virga_water_def virga_default_water_def(void);
@@ -271,12 +275,17 @@ VIRGA_API virga_result virga_water_attach(virga_water *water, const virga_target
 VIRGA_API virga_result virga_water_environment(virga_water *water, const virga_image *panorama);
 
 /* Draws the surface of this frame's step into images of the effect, for one view. Outside rendering, after the step,
- * at most eight times per frame; the draw of a view comes before the prepare of the next. The water is drawn where the
- * particles of the step are.
+ * at most eight times per frame. The draw of a view comes before the prepare of the next, or def.max_views is larger.
+ * The water is drawn where the particles of the step are.
  *
  * VIRGA_NOT_READY: no step in this frame, no max_width, or pipelines are missing; nothing is recorded.
  * Costs two draws of each surfel that faces the camera, and nine atomic additions for each particle. */
 VIRGA_API virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view);
+
+/* The same, and *prepared (may be NULL) gets the view's handle for virga_water_draw_view; 0 if nothing was prepared. Up
+ * to def.max_views of them live at the same time. */
+VIRGA_API virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, const virga_view *view,
+                                                virga_prepared *prepared);
 
 /* Draws the water into the target, inside rendering, after the opaque scene. With virga_view.color, what is seen
  * through the water is refracted; without it, the environment is seen through the water. With virga_view.depth, the ray
@@ -284,6 +293,11 @@ VIRGA_API virga_result virga_water_prepare(virga_water *water, VkCommandBuffer c
  *
  * VIRGA_NOT_READY, logged once: the target is not attached, or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target);
+
+/* The same for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was not,
+ * or that a later prepare or step has replaced. */
+VIRGA_API virga_result virga_water_draw_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                             virga_prepared prepared);
 
 /* A range of a buffer, in bytes. */
 typedef struct virga_water_buffer {
