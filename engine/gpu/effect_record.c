@@ -101,12 +101,15 @@ static virga_bound bound_of(const virga_effect *effect, const virga_binding_kind
     const void *member = virga_effect_member(effect, row->member);
     switch (row->source) {
     case VIRGA_SOURCE_BUFFER: {
-        const virga_buffer *buffer = *(virga_buffer *const *)member;
+        const virga_buffer *buffer = *(virga_buffer *const *)member; /* NULL: its size is 0 */
         return (virga_bound){.buffer = buffer ? buffer->buffer : VK_NULL_HANDLE, .range = row->range};
     }
     case VIRGA_SOURCE_RING:
         return (virga_bound){.buffer = ((const virga_ring *)member)->buffer->buffer, .range = row->range};
-    case VIRGA_SOURCE_TEXELS: return (virga_bound){.texels = (*(virga_buffer *const *)member)->texels};
+    case VIRGA_SOURCE_TEXELS: {
+        const virga_buffer *buffer = *(virga_buffer *const *)member;
+        return (virga_bound){.texels = buffer ? buffer->texels : VK_NULL_HANDLE};
+    }
     case VIRGA_SOURCE_IMAGE:
         return (virga_bound){.view = (*(virga_image_2d *const *)member)->layer_views[0],
                              .image_layout = VK_IMAGE_LAYOUT_GENERAL,

@@ -12,6 +12,7 @@
 #include "shaders/water_shaders.h"
 
 #include <virga/shared/compact.h>
+#include <virga/shared/foam.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -19,15 +20,11 @@
 /* ---- defaults */
 
 static const virga_setting_row def_rows[] = {
-    DEF(U32, max_particles, 64, 8388608, 65536),
-    DEF(U32, max_cells, 4096, 16777216, 262144),
-    DEF(U32, max_blocks, 64, 1048576, 32768),
-    DEF(U32, max_surfels, 256, 8388608, 262144),
-    DEF(U32, max_spray, 64, 262144, 4096),
-    DEF(U32, max_droplets, 256, 4194304, 65536),
-    DEF(U32, max_width, 0, 16384, 1920),
-    DEF(U32, max_height, 0, 16384, 1080),
-    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
+    DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_blocks, 64, 1048576, 32768),    DEF(U32, max_surfels, 256, 8388608, 262144),
+    DEF(U32, max_spray, 64, 262144, 4096),       DEF(U32, max_droplets, 256, 4194304, 65536),
+    DEF(U32, max_foam, 0, 1048576, 65536),       DEF(U32, max_width, 0, 16384, 1920),
+    DEF(U32, max_height, 0, 16384, 1080),        DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -46,6 +43,19 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, spray_turbulence, 0, 1, 0.1),
     SETTING(BOOL, hand_over, false, true, true),
     SETTING(FLOAT, hand_over_s, 0, 10, 0.1),
+    SETTING(FLOAT, foam_air_hz, 0, 1e6, 600),
+    SETTING(FLOAT, foam_crest_hz, 0, 1e6, 600),
+    SETTING(FLOAT, foam_speed_m_s[0], 0, 1000, 0.6),
+    SETTING(FLOAT, foam_speed_m_s[1], 0, 1000, 2),
+    SETTING(FLOAT, foam_air_m_s[0], 0, 1000, 0.25),
+    SETTING(FLOAT, foam_air_m_s[1], 0, 1000, 0.8),
+    SETTING(FLOAT, foam_crest[0], 0, 10, 0.25),
+    SETTING(FLOAT, foam_crest[1], 0, 10, 0.6),
+    SETTING(FLOAT, foam_life_s[0], 0.01, 1000, 1),
+    SETTING(FLOAT, foam_life_s[1], 0.01, 1000, 4),
+    SETTING(FLOAT, foam_radius_m, 1e-5, 1, 0.002),
+    SETTING(FLOAT, foam_rise_m_s, 0, 10, 0.25),
+    SETTING(FLOAT, foam_drag_hz, 0.01, 1000, 40),
     SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29),
     SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056),
     SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103),
@@ -56,6 +66,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, refraction, 0, 4, 1),
     SETTING(FLOAT, surfel_radius, 0.5, 4, 1.25),
     SETTING(FLOAT, soft_m, 0, 10, 0.002),
+    SETTING(FLOAT, foam_coverage, 0, 1, 0.3),
     SETTING(FLOAT, light_gain, 0, 1000, 1),
 };
 
@@ -75,6 +86,7 @@ static virga_result fit_device(const virga_context *context, void *given)
     bool reduced =
         virga_fit_storage(context, "water_def.max_particles", sizeof(virga_particle_gpu), &def->max_particles);
     reduced |= virga_fit_storage(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
+    reduced |= virga_fit_storage(context, "water_def.max_foam", sizeof(virga_foam_gpu), &def->max_foam);
     reduced |= virga_fit_storage(context, "water_def.max_spray", 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu),
                                  &def->max_spray);
     const uint32_t surfel_bytes = def->max_width ? VIRGA_WATER_SPLAT_TEXELS * 16 : sizeof(virga_surfel_gpu);
@@ -96,6 +108,12 @@ enum {
     COUNT_SPRAY_PICK_BYTES,
     COUNT_TABLE,
     COUNT_DROPLETS,
+    COUNT_FOAM,
+    COUNT_FOAM_PICK_BYTES,
+    COUNT_FOAM_ENTRIES,
+    COUNT_FOAM_SOURCES,
+    COUNT_FOAM_SOURCE_ENTRIES,
+    COUNT_FOAM_SPLATS,
     COUNT_DRAWN,
     COUNT_DRAWN_ENTRIES,
     COUNT_SPLAT_PICK_BYTES,
@@ -105,6 +123,29 @@ enum {
     COUNT_PYRAMID_ROWS,
     COUNT_VIEWS,
 };
+
+static VkDeviceSize whole_groups(uint32_t items)
+{
+    return ((VkDeviceSize)items + VIRGA_WATER_LANES - 1) / VIRGA_WATER_LANES * VIRGA_WATER_LANES;
+}
+
+/* Entries of a list with its head, in words. */
+static VkDeviceSize list_entries(uint32_t items)
+{
+    return items ? (VkDeviceSize)items + sizeof(virga_list_gpu) / sizeof(uint32_t) : 0;
+}
+
+static void count_foam(const virga_water_def *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    const uint32_t sources = def->max_foam ? def->max_particles : 0;
+    counts[COUNT_FOAM] = def->max_foam;
+    counts[COUNT_FOAM_ENTRIES] = list_entries(def->max_foam);
+    counts[COUNT_FOAM_SOURCES] = sources;
+    counts[COUNT_FOAM_SOURCE_ENTRIES] = list_entries(sources);
+    /* For both lists, one after the other. */
+    counts[COUNT_FOAM_PICK_BYTES] = VIRGA_PICK_BYTES(whole_groups(sources > def->max_foam ? sources : def->max_foam));
+    counts[COUNT_FOAM_SPLATS] = def->max_width ? def->max_foam : 0;
+}
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
@@ -117,17 +158,14 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_POINTS] = (VkDeviceSize)def->max_blocks * VIRGA_WATER_POINTS;
     counts[COUNT_SURFELS] = def->max_surfels;
     counts[COUNT_SPRAY] = def->max_spray;
-    counts[COUNT_SPRAY_PICK_BYTES] = VIRGA_PICK_BYTES(((VkDeviceSize)def->max_particles + VIRGA_WATER_LANES - 1) /
-                                                      VIRGA_WATER_LANES * VIRGA_WATER_LANES);
+    counts[COUNT_SPRAY_PICK_BYTES] = VIRGA_PICK_BYTES(whole_groups(def->max_particles));
     counts[COUNT_TABLE] = water_table_entries(def);
     counts[COUNT_DROPLETS] = def->max_droplets;
+    count_foam(def, counts);
     counts[COUNT_DRAWN] = def->max_width > 0;
     counts[COUNT_SPLATS] = def->max_width ? def->max_surfels : 0;
-    counts[COUNT_DRAWN_ENTRIES] = def->max_width ? def->max_surfels + sizeof(virga_list_gpu) / sizeof(uint32_t) : 0;
-    counts[COUNT_SPLAT_PICK_BYTES] = def->max_width
-                                         ? VIRGA_PICK_BYTES(((VkDeviceSize)def->max_surfels + VIRGA_WATER_LANES - 1) /
-                                                            VIRGA_WATER_LANES * VIRGA_WATER_LANES)
-                                         : 0;
+    counts[COUNT_DRAWN_ENTRIES] = def->max_width ? list_entries(def->max_surfels) : 0;
+    counts[COUNT_SPLAT_PICK_BYTES] = def->max_width ? VIRGA_PICK_BYTES(whole_groups(def->max_surfels)) : 0;
     counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
     counts[COUNT_PYRAMID_COLUMNS] = water_pyramid_extent(def).width;
     counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
@@ -170,6 +208,16 @@ static const virga_effect_buffer buffers[] = {
     {"water.prepared", AT(picture.prepared), VIRGA_USE_INDIRECT, DEVICE, .entry = sizeof(virga_water_prepared_gpu),
      .count = COUNT_DRAWN},
     {"water.pyramid", AT(picture.pyramid), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PYRAMID},
+    {"water.foam_picks", AT(foam.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_FOAM_PICK_BYTES},
+    {"water.foam_slots", AT(foam.slots), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_FOAM_ENTRIES},
+    {"water.foam", AT(foam.particles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_foam_gpu), .count = COUNT_FOAM,
+     .first = VIRGA_FIRST_FILL},
+    {"water.foam_normals", AT(foam.normals), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_FOAM_SOURCES},
+    {"water.foam_emissions", AT(foam.emissions), VIRGA_USE_STORAGE, DEVICE, .entry = 16, .count = COUNT_FOAM_SOURCES},
+    {"water.foam_sources", AT(foam.sources), VIRGA_USE_INDIRECT, DEVICE, .entry = 4,
+     .count = COUNT_FOAM_SOURCE_ENTRIES},
+    {"water.foam_splats", AT(picture.foam_splats), VIRGA_USE_TEXELS, DEVICE, .entry = 2 * 16,
+     .count = COUNT_FOAM_SPLATS, .per_view = true},
 };
 
 static const virga_effect_ring rings[] = {
@@ -248,16 +296,35 @@ static const virga_binding_kind spray_bindings[] = {
     [WATER_BIND_HANDED] = {STORAGE, COMPUTE},                         /* 17 */
 };
 
+static const virga_binding_kind foam_bindings[] = {
+    STEP_BINDINGS,                                                       /* 0 to 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},            /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},    /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.picks)},             /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},              /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.slots)},             /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.particles)},         /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.normals)},           /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.emissions)},         /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.sources)},           /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)}, /* 14 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},             /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},  /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(foam.normals)},            /* 17 */
+};
+
 static const virga_effect_layout layouts[] = {
     [WATER_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_water, grid_bindings, 1),
     [WATER_LAYOUT_KERNELS] = {AT(kernel_bindings), kernel_bindings, VIRGA_ROWS(kernel_bindings), 1, 0},
     [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
     [WATER_LAYOUT_SPRAY] = {AT(spray.bindings), spray_bindings, VIRGA_ROWS(spray_bindings), 1, 0},
+    [WATER_LAYOUT_FOAM] = {AT(foam.bindings), foam_bindings, VIRGA_ROWS(foam_bindings), 1, 0},
     [WATER_LAYOUT_DRAW] = {AT(picture.bindings), water_draw_bindings, WATER_DRAW_BINDINGS, WATER_MAX_VIEWS, 0},
 };
 
 #define SURFACE(pass)       PASS_AT(surface, pass, pass, .layout = WATER_LAYOUT_SURFACE)
 #define SPRAY(pass, member) PASS_AT(spray, pass, spray.member, .layout = WATER_LAYOUT_SPRAY)
+#define FOAM(pass, member)  PASS_AT(foam, pass, foam.member, .layout = WATER_LAYOUT_FOAM)
 #define PICTURE(pass)       PASS_AT(draw, pass, picture.pass, .layout = WATER_LAYOUT_DRAW)
 /* One form for each virga_water_kernel. */
 #define KERNEL(pass, row) PASS_AT(surface, pass, pass, .layout = row, .forms = WATER_KERNELS)
@@ -284,20 +351,27 @@ static const virga_effect_pass passes[] = {
     SPRAY(write_pieces, write_pieces),
     SPRAY(range, range),
     SPRAY(surfel, surfel),
+    FOAM(move, move),
+    FOAM(scan, scan),
+    FOAM(list, list_slots),
+    FOAM(normal, normal),
+    FOAM(potential, potential),
+    FOAM(source_scan, source_scan),
+    FOAM(source_list, source_list),
+    FOAM(starts, starts),
+    FOAM(make, make),
     PICTURE(splat_mark),
     PICTURE(splat_scan),
     PICTURE(splat_compact),
     PICTURE(splat_write),
     PICTURE(volume),
     PICTURE(volume_merge),
+    PICTURE(foam),
 };
 
 static const virga_effect_pool pools[] = {
-    POOL(max_surfels, 256, 256),
-    POOL(max_droplets, 256, 256),
-    POOL(max_spray, 64, 64),
-    POOL(max_blocks, 64, 64),
-    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
+    POOL(max_foam, 0, 256),      POOL(max_surfels, 256, 256), POOL(max_droplets, 256, 256),
+    POOL(max_spray, 64, 64),     POOL(max_blocks, 64, 64),    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
     POOL(max_particles, 64, 64),
 };
 
@@ -339,7 +413,14 @@ VIRGA_EFFECT_VIEW_FUNCTIONS(water)
 static virga_result draw_if_sized(void *object, VkCommandBuffer cmd, const virga_target *target,
                                   virga_prepared prepared)
 {
-    return ((virga_water *)object)->def.max_width ? water_type_draw(object, cmd, target, prepared) : VIRGA_OK;
+    virga_water *water = object;
+    if (!water->def.max_width)
+        return VIRGA_OK;
+    const virga_result result = water_type_draw(object, cmd, target, prepared);
+    if (result)
+        return result;
+    return prepared == VIRGA_PREPARED_NEWEST ? virga_water_draw_foam(water, cmd, target)
+                                             : virga_water_draw_foam_view(water, cmd, target, prepared);
 }
 
 const virga_effect_type water_type = {
@@ -351,7 +432,7 @@ const virga_effect_type water_type = {
     .extra_bytes = extra_bytes,
     .lighting = offsetof(virga_water_settings, lighting),
     .draws = water_draws,
-    .draw_count = 1,
+    .draw_count = WATER_DRAWS,
     .draw_layout = WATER_LAYOUT_DRAW,
     .prepare = prepare,
     .draw = draw_if_sized,
@@ -377,6 +458,14 @@ void virga_water_spray(const virga_water *water, virga_water_buffer *droplets, d
 {
     if (droplets)
         *droplets = water ? whole_buffer(water, water->spray.droplets) : (virga_water_buffer){0};
+    for (int axis = 0; origin_m && axis < 3; axis++)
+        origin_m[axis] = water ? water->origin_m[axis] : 0;
+}
+
+void virga_water_foam(const virga_water *water, virga_water_buffer *foam, double origin_m[3])
+{
+    if (foam)
+        *foam = water && water->foam.particles ? whole_buffer(water, water->foam.particles) : (virga_water_buffer){0};
     for (int axis = 0; origin_m && axis < 3; axis++)
         origin_m[axis] = water ? water->origin_m[axis] : 0;
 }

@@ -33,12 +33,16 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                                        /* 11 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                                         /* 12 */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},                                     /* 13 */
-    [BIND_SUMS] = {SAMPLED, FRAGMENT},                                                               /* 14 */
+    [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                                                     /* 14 */
     [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                             /* 15 */
     [BIND_THICKNESS] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},               /* 16 */
     [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                              /* 17 */
     [BIND_COLOR] = {SAMPLED, FRAGMENT},                                                              /* 18 */
     [BIND_PANORAMA] = {SAMPLED, FRAGMENT},                                                           /* 19 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.slots)},                                         /* 20 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.particles)},                                     /* 21 */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.foam_splats)},                       /* 22 */
+    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(picture.foam_splats)},                                  /* 23 */
 };
 
 /* ---- prepare */
@@ -72,6 +76,8 @@ static void fill_look(const virga_water *water, const virga_view *view, virga_wa
     memcpy(look->scattering_1_m, settings->scattering_1_m, sizeof look->scattering_1_m);
     look->reflection = settings->reflection;
     look->refraction = settings->refraction;
+    look->foam_coverage = settings->foam_coverage;
+    look->foam_late_s = water->foam_late_s;
     look->panorama_given = water->picture.panorama.view != VK_NULL_HANDLE;
 }
 
@@ -174,6 +180,18 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
     virga_pass_end(context, cmd, scope);
 }
 
+/* After the splats: foam may be under the surface. */
+static void record_foam(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set)
+{
+    virga_context *context = water->base.context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.foam_light");
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, water->picture.view_offset);
+    virga_dispatch_indirect(context, cmd, water->picture.foam, water->state->buffer,
+                            offsetof(virga_water_state_gpu, foam_groups));
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
+    virga_pass_end(context, cmd, scope);
+}
+
 virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view)
 {
     return virga_water_prepare_view(water, cmd, view, NULL);
@@ -208,6 +226,8 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
     record_list(water, cmd);
     record_splats(water, cmd, set, &block.look);
     virga_effect_set_view(&water->base, set, picture->view_offset, view, prepared);
+    if (water_has_foam(water))
+        record_foam(water, cmd, set);
     picture->look[water->base.slot] = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) |
                                       (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
                                       (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
@@ -216,10 +236,12 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
 
 /* ---- draw */
 
-static const uint32_t looks[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+#define LOOKS 8
+static const uint32_t looks[LOOKS] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-const virga_effect_draw water_draws[1] = {
-    {"water.draw", VIRGA_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, 8},
+const virga_effect_draw water_draws[WATER_DRAWS] = {
+    {"water.draw", VIRGA_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
+    {"water.foam_draw", VIRGA_FORM(water_draw_foam_vert), VIRGA_FRAGMENT_FORMS(water_draw_foam_frag), looks, 2},
 };
 
 virga_result virga_water_attach(virga_water *water, const virga_target *target)
@@ -231,8 +253,9 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
     return virga_effect_attach(&water->base, "virga_water_attach", target);
 }
 
-virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
-                        const char *call)
+/* Begins a draw with one of a target's pipelines: the one of a row that fits the view. */
+static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                               virga_prepared prepared, const char *call, bool foam, virga_pass_scope *scope)
 {
     virga_context *context = water->base.context;
     const virga_effect_target *found;
@@ -241,18 +264,56 @@ virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_tar
                                                   stepped ? virga_effect_ready(&water->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
-    const virga_pipeline *used = found->draws[water->picture.look[water->base.slot]];
+    const uint32_t look = water->picture.look[water->base.slot];
+    const virga_pipeline *used = found->draws[foam ? LOOKS + (look & VIRGA_WATER_LOOK_DEPTH) : look];
     result = virga_pipelines_ready(&used, 1);
     if (result)
         return result;
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, "water.draw");
+    *scope = virga_draw_begin(context, cmd, foam ? "water.foam_draw" : "water.draw");
     const virga_effect_view *view = virga_effect_selected(&water->base);
     virga_set_draw_area(context, cmd, view->viewport);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used->pipeline);
-    context->vk.CmdDraw(cmd, 3, 1, 0, 0);
-    virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
+}
+
+virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
+                        const char *call)
+{
+    virga_pass_scope scope;
+    const virga_result result = begin_draw(water, cmd, target, prepared, call, false, &scope);
+    if (result)
+        return result;
+    water->base.context->vk.CmdDraw(cmd, 3, 1, 0, 0);
+    virga_pass_end(water->base.context, cmd, scope);
+    return VIRGA_OK;
+}
+
+static virga_result draw_foam(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                              virga_prepared prepared, const char *call)
+{
+    virga_pass_scope scope;
+    if (!water_has_foam(water))
+        return VIRGA_OK;
+    const virga_result result = begin_draw(water, cmd, target, prepared, call, true, &scope);
+    if (result)
+        return result;
+    water->base.context->vk.CmdDrawIndirect(cmd, water->state->buffer, offsetof(virga_water_state_gpu, foam_vertices),
+                                            1, 0);
+    virga_pass_end(water->base.context, cmd, scope);
+    return VIRGA_OK;
+}
+
+virga_result virga_water_draw_foam(virga_water *water, VkCommandBuffer cmd, const virga_target *target)
+{
+    return water ? draw_foam(water, cmd, target, virga_effect_newest(&water->base), "virga_water_draw_foam")
+                 : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_water_draw_foam_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                        virga_prepared prepared)
+{
+    return water ? draw_foam(water, cmd, target, prepared, "virga_water_draw_foam_view") : VIRGA_ERROR_INVALID;
 }
 
 /* ---- environment */

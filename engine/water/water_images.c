@@ -90,7 +90,8 @@ virga_result water_images_create(virga_water *water)
                                      .depth = DEPTH,
                                      .reversed_depth = true,
                                      .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                     .readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT};
+                                     .readers =
+                                         VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT};
     if (!water->def.max_width)
         return VIRGA_OK;
     virga_result result = check_device(context);

@@ -4,6 +4,7 @@
  *   water_surface.c  a step: particles become surfels
  *   water_spray.c    the spray of a step
  *   spray_kernel.c   the kernel of its droplets
+ *   water_foam.c     the foam of a step
  *   water_images.c   the images that surfels are drawn into
  *   water_draw.c     prepare and draw
  */
@@ -26,14 +27,22 @@ typedef struct water_readback {
     virga_water_state_gpu state;
 } water_readback;
 
-enum { WATER_LAYOUT_GRID, WATER_LAYOUT_KERNELS, WATER_LAYOUT_SURFACE, WATER_LAYOUT_SPRAY, WATER_LAYOUT_DRAW };
+enum {
+    WATER_LAYOUT_GRID,
+    WATER_LAYOUT_KERNELS,
+    WATER_LAYOUT_SURFACE,
+    WATER_LAYOUT_SPRAY,
+    WATER_LAYOUT_FOAM,
+    WATER_LAYOUT_DRAW
+};
 
 /* Bindings of the kernels' and the surface's passes that the effect binds itself. */
 enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17 };
 
 #define WATER_KERNELS       2 /* virga_water_kernel */
 #define WATER_MAX_VIEWS     8 /* prepares in a frame */
-#define WATER_DRAW_BINDINGS 20
+#define WATER_DRAW_BINDINGS 24
+#define WATER_DRAWS         2
 
 /* The uniforms of a view. */
 typedef struct water_view_block {
@@ -46,11 +55,12 @@ typedef struct water_picture {
     virga_buffer *picks, *list, *splats, *prepared, *pyramid;
     VIRGA_PER_VIEW(virga_offscreen, sums); /* sums of splats, sums of their motion, depth */
     VIRGA_PER_VIEW(virga_image_2d, thickness);
+    VIRGA_PER_VIEW(virga_buffer, foam_splats);
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest block */
     virga_bindings *bindings;
-    virga_pipeline *splat_mark, *splat_scan, *splat_compact, *splat_write, *volume, *volume_merge;
+    virga_pipeline *splat_mark, *splat_scan, *splat_compact, *splat_write, *volume, *volume_merge, *foam;
     virga_pipeline *splat_depth, *splat_sum;
     virga_image panorama;
     uint32_t volume_first[VIRGA_WATER_VOLUME_LEVELS];
@@ -64,6 +74,13 @@ typedef struct water_spray {
     virga_pipeline *begin, *mark, *scan, *compact, *break_up, *fly, *starts_scan;
     virga_pipeline *write, *write_pieces, *range, *surfel;
 } water_spray;
+
+/* The foam: a pool of particles. Without max_foam all of it is empty. */
+typedef struct water_foam {
+    virga_buffer *picks, *slots, *particles, *normals, *emissions, *sources;
+    virga_bindings *bindings;
+    virga_pipeline *move, *scan, *list_slots, *normal, *potential, *source_scan, *source_list, *starts, *make;
+} water_foam;
 
 struct virga_water {
     virga_effect base; /* first */
@@ -84,6 +101,9 @@ struct virga_water {
     uint32_t spray_first;      /* the first step whose states go on */
     double spray_first_time_s; /* its time */
     virga_water_style spray_style;
+    water_foam foam;
+    double foam_time_s; /* of the newest step that was no sub-frame */
+    float foam_late_s;  /* from the newest step to it */
     virga_ring step_ring;
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
     virga_bindings *kernel_bindings, *bindings;
@@ -107,6 +127,13 @@ void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd);
 double water_particle_m3(const virga_water_settings *settings);
 double water_surfel_m(const virga_water_settings *settings);
 
+/* ---- water_foam.c */
+bool water_has_foam(const virga_water *water);
+void water_foam_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out);
+void water_foam_clear(const virga_water *water,
+                      VkCommandBuffer cmd); /* before the barrier at the start of its passes */
+void water_foam_record(virga_water *water, VkCommandBuffer cmd);
+
 /* ---- water_images.c */
 virga_result water_images_create(virga_water *water);
 void water_images_retire(virga_water *water);
@@ -119,7 +146,7 @@ VkExtent2D water_pyramid_extent(const virga_water_def *def);
 uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_WATER_VOLUME_LEVELS]);
 
 /* ---- water_draw.c */
-extern const virga_effect_draw water_draws[1];
+extern const virga_effect_draw water_draws[WATER_DRAWS];
 virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                         const char *call);
 extern const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS];

@@ -7,6 +7,8 @@
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
+#include <virga/shared/foam.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -44,6 +46,12 @@ void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                             .droplets_dropped = saturated_difference(read.state.droplets_wanted, read.state.droplets),
                             .handed_nl = (uint64_t)read.state.handed_nl[1] << 32 | read.state.handed_nl[0],
                             .taken_back_nl = (uint64_t)read.state.taken_nl[1] << 32 | read.state.taken_nl[0],
+                            .foam = read.state.foam,
+                            .foam_dropped = saturated_difference(
+                                read.state.foam_wanted, saturated_difference(read.state.foam, read.state.foam_first)),
+                            .foam_spray = read.state.foam_kinds[VIRGA_FOAM_SPRAY],
+                            .foam_surface = read.state.foam_kinds[VIRGA_FOAM_SURFACE],
+                            .foam_bubbles = read.state.foam_kinds[VIRGA_FOAM_BUBBLE],
                             .blocks = read.state.blocks,
                             .blocks_dropped = saturated_difference(read.state.blocks_wanted, read.state.blocks)};
 }
@@ -243,15 +251,19 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     water->step_particles[context->ring_slot] = particles;
     fill_step(water, particles, &step);
     water_spray_fill(water, info, &step);
+    water_foam_fill(water, info, &step);
     const uint32_t offset = virga_ring_push(context, &water->step_ring, &step, sizeof step);
     const VkDescriptorSet grid_set = write_set(water, water->grid.bindings, info, particles);
     const step_set kernels = {water->kernel_bindings, write_set(water, water->kernel_bindings, info, particles),
                               offset};
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
+    const step_set foam = {water->foam.bindings, write_set(water, water->foam.bindings, info, particles), offset};
     virga_effect_begin_step(&water->base, cmd);
     first_contents(water, cmd, info);
     water_spray_clear(water, cmd);
+    if (!info->sub_frame)
+        water_foam_clear(water, cmd);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");
@@ -266,6 +278,8 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     run(water, cmd, "water.surfels", &surface, record_surfels);
     if (water_has_spray(water))
         run(water, cmd, "water.spray_surfels", &spray, water_spray_record_surfels);
+    if (water_has_foam(water) && !info->sub_frame)
+        run(water, cmd, "water.foam", &foam, water_foam_record);
     virga_effect_copy_statistics(&water->base, cmd, 0, water->grid.state, 0, offsetof(water_readback, grid),
                                  sizeof(virga_particle_grid_gpu));
     virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),

@@ -29,21 +29,34 @@ float phase(float cos_angle)
 
 #define LAMP_RADIUS_M 0.1 // a lamp is not a point: its light does not grow any more below this distance
 
+struct Lamp {
+    vec3 towards; // unit vector from the point
+    vec3 light;   // irradiance at right angles to it
+    float distance2;
+};
+
+// A point or spot light, as a point at p (relative to the camera) sees it.
+Lamp lamp_at(uint i, vec3 p)
+{
+    const vec3 to_light = to_vec(view.lights[i].position) - p;
+    const float distance2 = max(dot(to_light, to_light), LAMP_RADIUS_M * LAMP_RADIUS_M);
+    const vec3 towards = to_light * inversesqrt(distance2);
+    const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
+    const float ends = clamp(1.0 - x * x, 0.0, 1.0);
+    const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
+                                 view.lights[i].inv_cos_width,
+                             0.0, 1.0);
+    return Lamp(towards, to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2), distance2);
+}
+
 // Point and spot lights: irradiance on a drop at p (relative to the camera) times its phase function. d is the viewing
 // direction; light from straight ahead is scattered forward, so a lamp behind the water glitters most.
 vec3 lamps(vec3 p, vec3 d)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < view.light_count; i++) {
-        const vec3 to_light = to_vec(view.lights[i].position) - p;
-        const float distance2 = max(dot(to_light, to_light), LAMP_RADIUS_M * LAMP_RADIUS_M);
-        const vec3 towards = to_light * inversesqrt(distance2);
-        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
-        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
-        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
-                                     view.lights[i].inv_cos_width,
-                                 0.0, 1.0);
-        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * phase(dot(towards, d)));
+        const Lamp lamp = lamp_at(i, p);
+        sum += lamp.light * phase(dot(lamp.towards, d));
     }
     return sum * view.light_gain;
 }

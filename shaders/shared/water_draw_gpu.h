@@ -39,6 +39,8 @@ struct virga_water_look_gpu {
     float reflection;        /* strength of what is mirrored */
     float refraction;        /* strength of the shift of what is seen through water */
     uint panorama_given;     /* */
+    float foam_coverage;     /* of one of its particles, in its center */
+    float foam_late_s;       /* foam is drawn where it was so long before its newest step */
 };
 
 /* Written by the passes of a prepare. */
@@ -52,7 +54,7 @@ struct virga_water_prepared_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_look_gpu, 148);
+VIRGA_ASSERT_SIZE(virga_water_look_gpu, 156);
 VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 32);
 #undef uint
 #endif

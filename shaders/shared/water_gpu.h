@@ -30,6 +30,8 @@ typedef struct virga_water_piece_gpu virga_water_piece_gpu;
 #define VIRGA_WATER_DROPLET_SURFELS 16   /* surfels of a droplet */
 #define VIRGA_WATER_DROPLET_SURFEL  0.7f /* their radius, in radii of the droplet */
 
+#define VIRGA_WATER_FOAM_EACH 64 /* particles of foam that a particle of water makes in a step at most */
+
 /* One step. Lengths in m. The first members are those of virga_particle_step_gpu. */
 struct virga_water_step_gpu {
     float cell_m;     /* side of a cell: the kernel's radius h */
@@ -77,6 +79,20 @@ struct virga_water_step_gpu {
     uint looks_back;  /* 1: a step may have handed droplets over */
     float hand_age_s; /* s, since the particle left the water, from which on it is handed over */
     float volume_nl;  /* nl, of a particle */
+    /* Foam, see shaders/water/foam. */
+    uint max_foam;
+    uint foam_now_us;       /* time of the step, in microseconds modulo 2^32 */
+    float foam_energy[2];   /* m^2/s^2, kinetic energy of a kilogram: where its potential begins; 1 / range */
+    float foam_air[2];      /* m/s, the same of trapped air */
+    float foam_crest[2];    /* the same of wave crests */
+    float foam_rates[2];    /* 1/s, particles that a particle of water makes by trapped air, and by wave crests */
+    float foam_life_s[2];   /* s, by the smallest and by the largest potential */
+    float foam_radius;      /* m, mean */
+    float foam_few;         /* spray has fewer particles of water around it */
+    float foam_many;        /* bubbles have more */
+    float foam_inv_weights; /* 1 / sum of the weights 1 - r / h of neighbours in water at rest */
+    float foam_drag;        /* 1/s, rate at which a bubble takes on the velocity of the water */
+    float foam_buoyancy;    /* m/s^2, of bubbles */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -102,6 +118,17 @@ struct virga_water_state_gpu {
     /* Counts of 64 bits (nl), since creation: low words, then high words. */
     uint handed_nl[2]; /* handed over */
     uint taken_nl[2];  /* taken back: in the air when its particle fell back into the water */
+    /* Foam. Steps go on from what they find here. */
+    uint foam_started;     /* 1 after the first step */
+    uint foam_clock_us;    /* time of the newest step */
+    float foam_gap_s;      /* from the step before to it */
+    uint foam;             /* particles */
+    uint foam_first;       /* of them those that are older than the newest step */
+    uint foam_wanted;      /* new ones, without the limit of max_foam */
+    uint foam_vertices[4]; /* indirect arguments of their draw */
+    uint foam_groups[3];   /* an invocation for each of them */
+    uint foam_word_groups[3];
+    uint foam_kinds[3]; /* by VIRGA_FOAM_..., without new ones */
 };
 
 /* A droplet of a splash particle, from frame to frame. */
@@ -114,9 +141,9 @@ struct virga_water_piece_gpu {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 164);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 236);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_water_state_gpu, 136);
+VIRGA_ASSERT_SIZE(virga_water_state_gpu, 212);
 #undef uint
 #endif
 

@@ -87,6 +87,18 @@ static void water(void **state)
     SAME(spray_pieces);
     SAME(spray_speed_m_s);
     SAME(spray_pattern);
+    SAME(foam_air_hz);
+    SAME(foam_crest_hz);
+    for (int i = 0; i < 2; i++) {
+        SAME(foam_speed_m_s[i]);
+        SAME(foam_air_m_s[i]);
+        SAME(foam_crest[i]);
+        SAME(foam_life_s[i]);
+    }
+    SAME(foam_radius_m);
+    SAME(foam_rise_m_s);
+    SAME(foam_drag_hz);
+    SAME(foam_coverage);
     SAME(reflection);
     SAME(refraction);
     SAME(surfel_radius);

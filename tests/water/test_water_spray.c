@@ -289,16 +289,7 @@ static void a_frame_that_is_thrown_away_leaves_no_states(void **state)
     f.particles[0].id = 77;
     assert_int_equal(droplets_at_speed(0.5, 0.01), 4);
     f.particles[0].id = 0;
-    host_device *device = &f.gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
-    const virga_water_step_info info = {.particles = f.particle_buffer.buffer, .count = f.count, .time_s = f.time_s};
-    assert_int_equal(virga_water_step(f.water, cmd, &info), VIRGA_OK);
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    effect_fixture_complete(&f.gpu, f.context);
+    water_fixture_throw_away(&f);
     assert_int_equal(droplets_at_speed(0.5, 0.01), 4);
     assert_int_equal(droplets_at_speed(2.001, 0.01), 13);
     assert_int_equal(droplets_at_speed(0.5, 0.01), 13);

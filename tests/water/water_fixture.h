@@ -38,6 +38,7 @@ static inline virga_water_def water_fixture_def(void)
     def.max_cells = 32768;
     def.max_blocks = 4096;
     def.max_surfels = 65536;
+    def.max_foam = 0;                   /* only test_water_foam.c has foam */
     def.max_width = def.max_height = 0; /* a test that draws sets them */
     return def;
 }
@@ -105,6 +106,21 @@ static inline void water_fixture_step(water_fixture *f)
 {
     REQUIRE(virga_water_set(f->water, &f->settings) == VIRGA_OK);
     REQUIRE(water_fixture_try(f) == VIRGA_OK);
+}
+
+/* Records a step in a frame that the host then throws away. */
+static inline void water_fixture_throw_away(water_fixture *f)
+{
+    host_device *device = &f->gpu.device;
+    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
+    const virga_water_step_info info = {.particles = f->particle_buffer.buffer, .count = f->count, .time_s = f->time_s};
+    assert_int_equal(virga_water_step(f->water, cmd, &info), VIRGA_OK);
+    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
+    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
+    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
+    effect_fixture_complete(&f->gpu, f->context);
 }
 
 static inline void water_fixture_close(water_fixture *f)

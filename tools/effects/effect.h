@@ -52,6 +52,8 @@ typedef struct tool_layer {
 
 /* A cache of points, a file per frame: NAME.%04u.ply. */
 typedef struct tool_points {
+    const char *name;               /* NULL: that of the effect */
+    const struct tool_points *next; /* a further cache of the effect; NULL: none */
     const ply_property *properties;
     uint32_t property_count;
     size_t stride;       /* bytes per row */

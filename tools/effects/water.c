@@ -48,6 +48,17 @@ static const scene_row water_rows[] = {
     SWITCH(scene_water, hand_over, "true", LIVE,
            "spray flies on as droplets of splashes, and wets what it hits; needs splash.on"),
     NUMBER(scene_water, hand_over_s, 0, 10, "0.1", LIVE, "time after which spray is handed over"),
+    NUMBER(scene_water, foam_air_hz, 0, 1000000, "600", LIVE,
+           "particles of foam that one of water makes in a second where it traps air; 0: none"),
+    NUMBER(scene_water, foam_crest_hz, 0, 1000000, "600", LIVE, "the same at the crests of waves"),
+    NUMBER(scene_water, foam_speed_m_s, 0, 1000, "[0.6, 2]", LIVE, "speeds at which foam begins, and is fully made"),
+    NUMBER(scene_water, foam_air_m_s, 0, 1000, "[0.25, 0.8]", LIVE, "the same of the speed at which water meets water"),
+    NUMBER(scene_water, foam_crest, 0, 10, "[0.25, 0.6]", LIVE, "the same of how sharp a crest is: 1 - cos of angles"),
+    NUMBER(scene_water, foam_life_s, 0.01, 1000, "[1, 4]", LIVE, "life time of foam, from weak and strong causes"),
+    NUMBER(scene_water, foam_radius_m, 0.00001, 1, "0.002", LIVE, "mean radius of a particle of foam"),
+    NUMBER(scene_water, foam_rise_m_s, 0, 10, "0.25", LIVE, "speed at which bubbles rise"),
+    NUMBER(scene_water, foam_drag_hz, 0.01, 1000, "40", LIVE, "rate at which bubbles take on the water's velocity"),
+    NUMBER(scene_water, foam_coverage, 0, 1, "0.3", LIVE, "how much a particle of foam covers in its middle"),
     NUMBER(scene_water, absorption_1_m, 0, 1000, "[0.29, 0.056, 0.0103]", LIVE,
            "of light in the water (red, green, blue); that of pure water if left out"),
     NUMBER(scene_water, scattering_1_m, 0, 1000, "[0, 0, 0]", LIVE,
@@ -61,6 +72,7 @@ static const scene_row water_rows[] = {
     WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the files"),
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
           "cells that the surface runs through; 280 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_foam, 0, 1048576, "131072", RESTARTS, "particles of foam; 80 bytes each; 0: none"),
     WHOLE(scene_water, max_surfels, 0, 8388608, "0", RESTARTS, "of the surface; 32 bytes each; 0: by the files"),
 };
 static const scene_group water_group = SCENE_GROUP(scene_water, water_rows);
@@ -134,6 +146,7 @@ static void size_pools(const scene_water *from, const water_source *source, virg
     def->max_blocks = size_of(from->max_blocks, source->most, def->max_blocks, 1048576);
     def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 2097152);
     def->max_spray = size_of(0, 0.25 * source->most, def->max_spray, 262144);
+    def->max_foam = from->max_foam;
     def->max_droplets = size_of(0, 4.0 * source->most, def->max_droplets, 1048576);
     def->max_particles = def->max_particles < 64 ? 64 : def->max_particles;
     def->max_cells = def->max_cells < 4096 ? 4096 : def->max_cells;
@@ -191,9 +204,27 @@ static void close_state(shot *s, void *state)
     particle_sequence_close(p->source.sequence);
     host_buffer_destroy(&s->device, &p->particles);
     host_buffer_destroy(&s->device, &p->surfels.buffer);
+    host_buffer_destroy(&s->device, &p->droplets.buffer);
+    host_buffer_destroy(&s->device, &p->foam.buffer);
 }
 
 /* ---- time ----------------------------------------------------------------------------------------------------- */
+
+static void apply_foam(const scene_water *from, virga_water_settings *settings)
+{
+    settings->foam_air_hz = (float)from->foam_air_hz;
+    settings->foam_crest_hz = (float)from->foam_crest_hz;
+    for (int i = 0; i < 2; i++) {
+        settings->foam_speed_m_s[i] = (float)from->foam_speed_m_s[i];
+        settings->foam_air_m_s[i] = (float)from->foam_air_m_s[i];
+        settings->foam_crest[i] = (float)from->foam_crest[i];
+        settings->foam_life_s[i] = (float)from->foam_life_s[i];
+    }
+    settings->foam_radius_m = (float)from->foam_radius_m;
+    settings->foam_rise_m_s = (float)from->foam_rise_m_s;
+    settings->foam_drag_hz = (float)from->foam_drag_hz;
+    settings->foam_coverage = (float)from->foam_coverage;
+}
 
 static bool apply(shot *s, void *state, double time_s, char *error, size_t error_size)
 {
@@ -216,6 +247,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.kernel = (virga_water_kernel)from->kernel;
     settings.smoothing = (float)from->smoothing;
     settings.stretch = (float)from->stretch;
+    apply_foam(from, &settings);
     for (int c = 0; c < 3; c++) {
         settings.absorption_1_m[c] = (float)from->absorption_1_m[c];
         settings.scattering_1_m[c] = (float)from->scattering_1_m[c];
@@ -264,8 +296,15 @@ static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *t
     return p->water ? virga_water_draw(p->water, cmd, target) : VIRGA_OK;
 }
 
+static virga_result draw_foam(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    const water_state *p = state;
+    return p->water ? virga_water_draw_foam(p->water, cmd, target) : VIRGA_OK;
+}
+
 static const tool_layer layers[] = {
     {TOOL_COLOR_LAYER("water", draw, 15, "water", "the water alone")},
+    {TOOL_COLOR_LAYER("foam", draw_foam, 16, "foam", "foam, spray and bubbles of the water alone")},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
@@ -294,6 +333,11 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "splashes_dropped", now.splashes_dropped);
     jsonl_uint64(stats, "droplets", now.droplets);
     jsonl_uint64(stats, "droplets_dropped", now.droplets_dropped);
+    jsonl_uint64(stats, "foam", now.foam);
+    jsonl_uint64(stats, "foam_dropped", now.foam_dropped);
+    jsonl_uint64(stats, "foam_spray", now.foam_spray);
+    jsonl_uint64(stats, "foam_surface", now.foam_surface);
+    jsonl_uint64(stats, "foam_bubbles", now.foam_bubbles);
     jsonl_uint64(stats, "blocks", now.blocks);
     jsonl_uint64(stats, "blocks_dropped", now.blocks_dropped);
     jsonl_end(stats);
@@ -306,16 +350,27 @@ static double count_particles(const void *state)
     return ((const water_state *)state)->count;
 }
 
-static double count_surfels(const void *state)
+static virga_water_stats newest(const void *state)
 {
     const water_state *p = state;
     virga_water_stats stats = {0};
     if (p->water)
         virga_water_stats_get(p->water, &stats);
-    return stats.surfels;
+    return stats;
 }
 
-static const tool_count counts[] = {{"particles of water", count_particles}, {"surfels of water", count_surfels}};
+static double count_surfels(const void *state)
+{
+    return newest(state).surfels;
+}
+
+static double count_foam(const void *state)
+{
+    return newest(state).foam;
+}
+
+static const tool_count counts[] = {
+    {"particles of water", count_particles}, {"surfels of water", count_surfels}, {"foam", count_foam}};
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 

@@ -31,6 +31,10 @@ typedef struct scene_water {
     bool hand_over;
     double hand_over_s;
     uint32_t spray_pieces;
+    double foam_air_hz, foam_crest_hz;
+    double foam_speed_m_s[2], foam_air_m_s[2], foam_crest[2], foam_life_s[2];
+    double foam_radius_m, foam_rise_m_s, foam_drag_hz, foam_coverage;
+    uint32_t max_foam;
     double absorption_1_m[3], scattering_1_m[3];
     double reflection, refraction, surfel_radius, soft_m, light_gain;
     uint32_t max_particles, max_cells, max_blocks, max_surfels; /* 0: by the particles */

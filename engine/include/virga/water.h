@@ -12,9 +12,10 @@
  *     virga_water_step(water, cmd, &info);
  *     virga_water_prepare(water, cmd, &view);
  *
- * and inside rendering, after the opaque scene, virga_water_draw:
+ * and inside rendering, after the opaque scene:
  *
  *     virga_water_draw(water, cmd, target);
+ *     virga_water_draw_foam(water, cmd, target);
  *
  * Drawing: each surfel is drawn as an ellipse into images of the effect's own. Overlapping ellipses are added up with
  * weights (surface splatting, Zwicker et al. 2001). This gives each pixel a depth and a normal, smooth also where few
@@ -28,6 +29,7 @@
 #define VIRGA_WATER_H
 
 #include <virga/light.h>
+#include <virga/shared/foam.h>
 #include <virga/shared/handed_droplet.h>
 #include <virga/shared/leaver.h>
 #include <virga/shared/particle.h>
@@ -67,6 +69,10 @@ typedef struct virga_water_def {
     /* [256; 4194304] droplets that splash particles become; 32 bytes each. Further ones are left out, and the
      * statistics say how many. Default 65536. */
     uint32_t max_droplets;
+
+    /* [0; 1048576] particles of foam: 48 bytes each, 32 more for each view, and 36 for each of max_particles. While all
+     * are in use no new ones are made, and the statistics say how many are missing. 0: no foam. Default 65536. */
+    uint32_t max_foam;
 
     /* [0; 16384] size in pixels of the images that water is drawn from; 26 bytes for each pixel, and 53 bytes for each
      * surfel. Larger views are drawn at this resolution. Default 1920 x 1080. If one is 0, the water can not be drawn,
@@ -167,6 +173,45 @@ typedef struct virga_water_settings {
      * particle that leaves. Until then it may fall back as it was. Default 0.1. */
     float hand_over_s;
 
+    /* ---- foam: spray, foam on the surface and bubbles, after Ihmsen et al. 2012, "Unified spray, foam and air bubbles
+     * for particle-based fluids". It follows the water and does not move it, and no water is taken for it. See
+     * virga_water_def.max_foam.
+     *
+     * In a second, a particle of water makes I_k (foam_air_hz I_ta + foam_crest_hz I_wc) particles of foam. The
+     * potentials I go from 0 at the first value of a range to 1 at the second. */
+
+    /* [0; 1e6] particles of foam that a particle of water makes in a second where it traps air: k_ta (1/s). 0: none.
+     * Default 600. Finer simulations need fewer. */
+    float foam_air_hz;
+
+    /* [0; 1e6] the same at the crests of waves: k_wc (1/s). Default 600. */
+    float foam_crest_hz;
+
+    /* [0; 1000] range of the speed (m/s) of water. I_k grows with its square, as the kinetic energy. Default 0.6, 2.
+     */
+    float foam_speed_m_s[2];
+
+    /* [0; 1000] range of trapped air: how fast neighbours of a particle come nearer, as the mean over them (m/s).
+     * Default 0.25, 0.8. */
+    float foam_air_m_s[2];
+
+    /* [0; 10] range of a crest's curvature: the mean of 1 - cos of the angles between the normals of a particle and of
+     * its neighbours, where the surface is convex and moves along its normal. Default 0.25, 0.6. */
+    float foam_crest[2];
+
+    /* [0.01; 1000] life time of foam from the smallest and from the largest potential (s); each particle has 0.75 to
+     * 1.25 of it. Foam on the surface and spray age, bubbles do not. Default 1, 4. */
+    float foam_life_s[2];
+
+    /* [1e-5; 1] mean radius of a particle of foam (m): a cluster of bubbles, or of fine drops. Default 0.002. */
+    float foam_radius_m;
+
+    /* [0; 10] speed at which bubbles rise in water at rest (m/s). Default 0.25. */
+    float foam_rise_m_s;
+
+    /* [0.01; 1000] rate at which bubbles take on the velocity of the water: k_d (1/s). Default 40. */
+    float foam_drag_hz;
+
     /* ---- how it is drawn */
 
     /* [0; 1000] absorption of light (1/m; red, green, blue). Water of a path of x m lets exp(-x absorption) through.
@@ -193,6 +238,9 @@ typedef struct virga_water_settings {
     /* [0; 10] range of depth over which the water fades where it meets the scene (m). Needs virga_view.depth. Default
      * 0.002. */
     float soft_m;
+
+    /* [0; 1] how much of what is behind it a particle of foam covers in its middle. Default 0.3. */
+    float foam_coverage;
 
     /* [0; 1000] factor of the light from lamps. Default 1. */
     float light_gain;
@@ -239,11 +287,12 @@ typedef struct virga_water_step_info {
     double origin_m[3];
 
     /* [-1e9; 1e9] time that the particles are at (s), in the time of virga_water_prepare. Splash particles are followed
-     * from step to step if it grows by 0.25 s at most; otherwise they begin anew. */
+     * from step to step if it grows by 0.25 s at most; otherwise they begin anew. So does foam. */
     double time_s;
 
     /* true: another time of a frame that was stepped already, e.g. for motion blur. Splash particles are what they were
-     * in the last step without it, and later steps do not see this one. Default false. */
+     * in the last step without it, foam is drawn where it was on its way, and later steps do not see this one. Default
+     * false. */
     bool sub_frame;
 
     /* (optional) The list of droplets that are handed over: a virga_handed_droplets_gpu and the droplets after it, as
@@ -299,6 +348,14 @@ VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd,
 VIRGA_API virga_result virga_water_draw_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
                                              virga_prepared prepared);
 
+/* Draws the foam of the view that was prepared, inside rendering, after virga_water_draw. Scenes draw both. Foam under
+ * the surface is seen through the water. VIRGA_OK without max_foam; otherwise as virga_water_draw. */
+VIRGA_API virga_result virga_water_draw_foam(virga_water *water, VkCommandBuffer cmd, const virga_target *target);
+
+/* The same for any view that was prepared in this frame, as virga_water_draw_view. */
+VIRGA_API virga_result virga_water_draw_foam_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                                  virga_prepared prepared);
+
 /* A range of a buffer, in bytes. */
 typedef struct virga_water_buffer {
     VkBuffer buffer;
@@ -313,6 +370,10 @@ VIRGA_API void virga_water_surfels(const virga_water *water, virga_water_buffer 
  * frame, relative to `origin_m`. The volumes of a particle's droplets add up to its volume times its share. The surface
  * has surfels of them as well, after all others. Ready to be read by transfers and compute shaders. */
 VIRGA_API void virga_water_spray(const virga_water *water, virga_water_buffer *droplets, double origin_m[3]);
+
+/* Reads where the foam of the newest step is: the slots of a pool of virga_foam_gpu, relative to `origin_m`. Slots with
+ * life_s 0 are free. Of size 0 without max_foam. Ready to be read by transfers and compute shaders. */
+VIRGA_API void virga_water_foam(const virga_water *water, virga_water_buffer *foam, double origin_m[3]);
 
 /* Reads the density at each particle of the newest step: a float for each, in the order of the particles. 1 is inside
  * the water, 0 stands for particles outside the grid. Ready to be read by transfers and compute shaders. */
@@ -343,6 +404,10 @@ typedef struct virga_water_stats {
 
     /* Splash particles, and those for which there was no room; the same of their droplets. */
     uint32_t splashes, splashes_dropped, droplets, droplets_dropped;
+
+    /* Particles of foam, and new ones in this step for which there was no room. Of those that are older than the step,
+     * how many are spray, foam on the surface, and bubbles. */
+    uint32_t foam, foam_dropped, foam_spray, foam_surface, foam_bubbles;
 
     /* Cells that the surface may run through, and those of them for which there was no room. */
     uint32_t blocks, blocks_dropped;

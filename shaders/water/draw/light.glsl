@@ -2,7 +2,8 @@
 layout(set = 0, binding = 18) uniform sampler2D scene_color;
 layout(set = 0, binding = 19) uniform sampler2D panorama;
 
-#define WATER 1.333
+#include "fresnel.glsl"
+
 #define STEPS 4 // of the search for where a ray meets the scene
 
 struct Point {
@@ -13,14 +14,6 @@ struct Point {
     float thickness; // of the water along the direction of view, m
     float spread;    // variance of the normal within the pixel
 };
-
-// Fresnel's equations for unpolarised light, from air into water.
-float fresnel(float cos_air, float cos_water)
-{
-    const float s = (cos_air - WATER * cos_water) / (cos_air + WATER * cos_water);
-    const float p = (cos_water - WATER * cos_air) / (cos_water + WATER * cos_air);
-    return 0.5 * (s * s + p * p);
-}
 
 vec3 around(vec3 direction)
 {
@@ -124,21 +117,16 @@ vec3 highlights(Point point)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < view.light_count; i++) {
-        const vec3 to_light = to_vec(view.lights[i].position) - point.position;
-        const float distance2 = max(dot(to_light, to_light), LAMP_RADIUS_M * LAMP_RADIUS_M);
-        const vec3 towards = to_light * inversesqrt(distance2), half_way = normalize(towards - point.incident);
-        const float cosine = max(dot(half_way, point.normal), 0.0), lit = max(dot(towards, point.normal), 0.0);
-        const float size = LAMP_RADIUS_M * LAMP_RADIUS_M / distance2;
+        const Lamp lamp = lamp_at(i, point.position);
+        const vec3 half_way = normalize(lamp.towards - point.incident);
+        const float cosine = max(dot(half_way, point.normal), 0.0), lit = max(dot(lamp.towards, point.normal), 0.0);
+        const float size = LAMP_RADIUS_M * LAMP_RADIUS_M / lamp.distance2;
         const float a2 = min(LEAST_ROUGHNESS + 2.0 * point.spread + 0.25 * size, 1.0);
         const float peak = cosine * cosine * (a2 - 1.0) + 1.0, distribution = a2 / (3.14159265 * peak * peak);
-        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
-        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
-        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
-                                     view.lights[i].inv_cos_width, 0.0, 1.0);
         const float facing = max(-dot(point.incident, half_way), 0.0);
         const float in_water = sqrt(1.0 - (1.0 - facing * facing) / (WATER * WATER));
-        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * distribution *
-               fresnel(facing, in_water) * step(1e-4, lit) / (4.0 * max(-dot(point.incident, point.normal), 0.05)));
+        sum += lamp.light * (distribution * fresnel(facing, in_water) * step(1e-4, lit) /
+                             (4.0 * max(-dot(point.incident, point.normal), 0.05)));
     }
     return sum * view.light_gain;
 }

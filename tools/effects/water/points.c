@@ -1,4 +1,4 @@
-/* points.c - the surfels of water as points. */
+/* points.c - the surfels of water as points. spray_points.c has those of spray and foam. */
 #include "water_state.h"
 
 #include "point_columns.h"
@@ -67,6 +67,7 @@ static bool read(shot *s, void *state, void **rows, uint32_t *count, char *error
 }
 
 const tool_points water_points = {
+    .next = &water_spray_points,
     .properties = surfel_columns,
     .property_count = sizeof surfel_columns / sizeof surfel_columns[0],
     .stride = sizeof(surfel),

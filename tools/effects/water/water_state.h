@@ -24,7 +24,7 @@ typedef struct water_state {
     uint32_t count;         /* of the newest step */
     double volume_m3;       /* of all particles of the newest step */
     uint64_t step_frame;    /* device frame of the newest step */
-    shot_read surfels;
+    shot_read surfels, droplets, foam;
 } water_state;
 
 /* Opens the files of a scene. Reports errors by scene_file_refuse. */
@@ -44,7 +44,7 @@ bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stat
 virga_particle_gpu *water_copy_particles(const shot *s, const water_state *state, uint32_t *count, char *error,
                                          size_t error_size);
 
-extern const tool_points water_points;
+extern const tool_points water_points, water_spray_points, water_foam_points;
 extern const tool_mesh water_surface_mesh;
 
 #endif

@@ -164,11 +164,19 @@ bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *e
 
 /* ---- points */
 
+static const char *points_name(const tool_effect *effect, const tool_points *points)
+{
+    return points->name ? points->name : effect->name;
+}
+
 const char *frame_points_name(const scene_file *scene, uint32_t index)
 {
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->points && tool_effect_is_used(tool_effects[i], scene) && !index--)
-            return tool_effects[i]->name;
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        const tool_effect *effect = tool_effects[i];
+        for (const tool_points *points = effect->points; points; points = points->next)
+            if (tool_effect_is_used(effect, scene) && !index--)
+                return points_name(effect, points);
+    }
     return NULL;
 }
 
@@ -180,20 +188,21 @@ void frame_points_path(const char *directory, const char *name, uint32_t frame, 
 void frame_points_help(void)
 {
     for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->points)
-            printf("    %c %s.%%04d.ply%*s %s\n", tool_effects[i]->is_used ? '*' : ' ', tool_effects[i]->name,
-                   (int)(19 - strlen(tool_effects[i]->name)), "", tool_effects[i]->points->help);
+        for (const tool_points *points = tool_effects[i]->points; points; points = points->next) {
+            const char *name = points_name(tool_effects[i], points);
+            printf("    %c %s.%%04d.ply%*s %s\n", tool_effects[i]->is_used ? '*' : ' ', name, (int)(19 - strlen(name)),
+                   "", points->help);
+        }
 }
 
-static bool write_points(shot *s, const tool_effect *effect, void *state, const char *directory, uint32_t frame,
-                         char *error, size_t error_size)
+static bool write_points(shot *s, const tool_points *points, const char *name, void *state, const char *directory,
+                         uint32_t frame, char *error, size_t error_size)
 {
-    const tool_points *points = effect->points;
     const char *const comments[] = {points->comment, NULL};
     void *rows = NULL;
     uint32_t count;
     char path[4096];
-    frame_points_path(directory, effect->name, frame, path, sizeof path);
+    frame_points_path(directory, name, frame, path, sizeof path);
     const bool written = points->read(s, state, &rows, &count, error, error_size) &&
                          ply_write(path, points->properties, points->property_count, rows, points->stride, count,
                                    comments, error, error_size);
@@ -203,10 +212,15 @@ static bool write_points(shot *s, const tool_effect *effect, void *state, const 
 
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->points && tool_effect_is_used(tool_effects[i], s->scene) &&
-            !write_points(s, tool_effects[i], s->states[i], directory, frame, error, error_size))
-            return false;
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        const tool_effect *effect = tool_effects[i];
+        if (!tool_effect_is_used(effect, s->scene))
+            continue;
+        for (const tool_points *points = effect->points; points; points = points->next)
+            if (!write_points(s, points, points_name(effect, points), s->states[i], directory, frame, error,
+                              error_size))
+                return false;
+    }
     return true;
 }
 

@@ -120,9 +120,11 @@ bool shot_record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_
 {
     for (uint32_t i = 0; tool_effects[i]; i++) {
         const tool_effect *effect = tool_effects[i];
-        if (effect->points && tool_effect_is_used(effect, s->scene) &&
-            !effect->points->record(s, s->states[i], cmd, error, error_size))
-            return false;
+        if (!tool_effect_is_used(effect, s->scene))
+            continue;
+        for (const tool_points *points = effect->points; points; points = points->next)
+            if (!points->record(s, s->states[i], cmd, error, error_size))
+                return false;
     }
     return true;
 }

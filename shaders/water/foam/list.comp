@@ -1,0 +1,19 @@
+// list.comp - the list of slots, third pass.
+// One invocation per 32 slots. Reads: picks. Writes: the list.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "water/grid.glsl"
+#define COMPACT_GROUP VIRGA_WATER_LANES
+#define COMPACT_PICKS_BINDING 7
+#define COMPACT_LIST_BINDING 9
+#include "gpu/compact_write.glsl"
+
+layout(local_size_x = VIRGA_WATER_LANES) in;
+
+void main()
+{
+    const uint word = gl_GlobalInvocationID.x;
+    if (word < list.word_count)
+        write_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
+}

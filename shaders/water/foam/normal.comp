@@ -1,0 +1,56 @@
+// normal.comp - the normal of the surface at each particle near it, and how much air is trapped there.
+//
+// Trapped air (equation 2 of Ihmsen et al. 2012): the sum over the neighbours j of |v_ij| (1 - v_ij . x_ij) W, where
+// v_ij = v_i - v_j and x_ij = x_i - x_j, the second pair as unit vectors, and W = 1 - r / h. It is 0 for neighbours
+// that move away from each other, and largest for those that meet head-on. Here it is divided by the sum of W in the
+// middle of water at rest: it is a speed, which does not depend on how many neighbours a kernel has.
+//
+// The normal is that of the density, and only where its slope is steep: at the surface.
+// One invocation per sorted particle. Reads: sorted, sorted_velocities. Writes: normals.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define STATE_ACCESS readonly
+#include "foam.glsl"
+
+layout(local_size_x = VIRGA_WATER_LANES) in;
+
+vec3 here, gradient, velocity;
+float inv_h2, air;
+
+void visit(uint i, vec4 particle);
+#include "gather.glsl"
+TEXELS(velocity_texel, 16, 14)
+
+void visit(uint i, vec4 particle)
+{
+    const vec3 apart = here - particle.xyz;
+    const float q2 = dot(apart, apart) * inv_h2, x = max(1.0 - q2, 0.0);
+    gradient += particle.w * x * x * apart;
+    if (x > 0.0) {
+        const vec3 moved = velocity - uintBitsToFloat(velocity_texel(i)).xyz;
+        const float apart_m = sqrt(dot(apart, apart));
+        // |v| (1 - v . x / (|v| |x|)) = |v| - v . x / |x|
+        air += particle.w * (1.0 - sqrt(q2)) * (length(moved) - dot(moved, apart) / max(apart_m, 1e-20));
+    }
+}
+
+// Of the slope of the density, times h. In the outermost layer of a flat surface with h = 2 spacings it is 0.95, in the
+// one below it 0.045.
+#define STEEP 0.3
+
+void main()
+{
+    const uint own = gl_GlobalInvocationID.x;
+    if (own >= grid.sorted)
+        return;
+    here = uintBitsToFloat(sorted_texel(own)).xyz;
+    velocity = uintBitsToFloat(velocity_texel(own)).xyz;
+    inv_h2 = frame.inv_h2;
+    gradient = vec3(0.0);
+    air = 0.0;
+    gather(cell_at(here));
+    const vec3 slope = frame.kernel_gradient * gradient;
+    const float steep = length(slope);
+    normals[own] = vec4(steep * frame.cell_m > STEEP ? -slope / steep : vec3(0.0), air * frame.foam_inv_weights);
+}
