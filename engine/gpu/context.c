@@ -115,6 +115,7 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->memory_budget = def->memory_budget;
     context->frames_in_flight = def->frames_in_flight;
     context->debug_names = def->debug_names;
+    context->strict = def->strict;
     context->pipeline_build_mode = def->pipeline_build_mode;
     context->pipeline_jobs = def->pipeline_jobs;
     TRY(virga_functions_load_instance(&context->vk, &context->log, def->get_instance_proc_addr, def->instance));

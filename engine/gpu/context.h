@@ -26,6 +26,7 @@ struct virga_context {
     bool lines;       /* draw streaks of about one pixel as lines, see virga_context_def.wide_lines */
     bool small_views; /* buffer views are too small for pools: read storage buffers, see shaders/gpu/texels.glsl */
     bool debug_names;
+    bool strict; /* see virga_context_def */
 
     /* Frames. */
     uint32_t frames_in_flight;

@@ -105,6 +105,70 @@ static virga_result check_def(const virga_log *log, const virga_target_def *def)
     return VIRGA_OK;
 }
 
+/* ---- a render pass, by what it was created with */
+
+static virga_result check_attachment(const virga_context *context, const virga_target_def *def,
+                                     const VkSubpassDescription *subpass, uint32_t index)
+{
+    const VkRenderPassCreateInfo *info = def->render_pass_info;
+    const virga_log *log = &context->log;
+    const uint32_t at = subpass->pColorAttachments[index].attachment;
+    char member[48];
+    if (at >= info->attachmentCount)
+        return virga_wrong_argument(log, "target_def: color attachment %u of subpass %u is not used in the render pass",
+                                    index, def->subpass);
+    const VkAttachmentDescription *attachment = &info->pAttachments[at];
+    if (def->color_formats[index] != VK_FORMAT_UNDEFINED && def->color_formats[index] != attachment->format)
+        return virga_wrong_argument(log, "target_def.color_formats[%u]: expected the render pass's VkFormat %d, got %d",
+                                    index, (int)attachment->format, (int)def->color_formats[index]);
+    if (attachment->samples != def->samples)
+        return virga_wrong_argument(log, "target_def.samples: expected %u, as the render pass has, got %u",
+                                    (unsigned)attachment->samples, (unsigned)def->samples);
+    snprintf(member, sizeof member, "render_pass: color attachment %u", index);
+    return check_format(context, member, attachment->format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, "blend");
+}
+
+static virga_result check_pass_depth(const virga_log *log, const virga_target_def *def,
+                                     const VkSubpassDescription *subpass)
+{
+    const VkAttachmentReference *depth = subpass->pDepthStencilAttachment;
+    const bool there = depth && depth->attachment < def->render_pass_info->attachmentCount;
+    const VkFormat format = there ? def->render_pass_info->pAttachments[depth->attachment].format : VK_FORMAT_UNDEFINED;
+    const bool has_depth = there && format != VK_FORMAT_S8_UINT;
+    if (has_depth == def->depth_attached)
+        return VIRGA_OK;
+    return virga_wrong_argument(log, "target_def.depth_attached: is %s, and subpass %u has %s depth attachment",
+                                def->depth_attached ? "true" : "false", def->subpass, has_depth ? "a" : "no");
+}
+
+static virga_result check_pass(const virga_context *context, const virga_target_def *def)
+{
+    const virga_log *log = &context->log;
+    const VkRenderPassCreateInfo *info = def->render_pass_info;
+    if (def->kind != VIRGA_TARGET_RENDER_PASS)
+        return VIRGA_OK;
+    if (!info && context->strict)
+        return virga_wrong_argument(log,
+                                    "target_def.render_pass_info: expected it, as the context is strict; got NULL");
+    if (!info)
+        return VIRGA_OK;
+    if (info->sType != VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO)
+        return virga_wrong_argument(log, "target_def.render_pass_info: expected a VkRenderPassCreateInfo, got sType %d",
+                                    (int)info->sType);
+    if (def->subpass >= info->subpassCount)
+        return virga_wrong_argument(log, "target_def.subpass: expected less than the render pass's %u, got %u",
+                                    info->subpassCount, def->subpass);
+    const VkSubpassDescription *subpass = &info->pSubpasses[def->subpass];
+    if (subpass->colorAttachmentCount != def->color_count)
+        return virga_wrong_argument(log, "target_def.color_count: expected %u, as subpass %u has, got %u",
+                                    subpass->colorAttachmentCount, def->subpass, def->color_count);
+    const uint32_t written[3] = {0, def->motion_attachment, def->reactive_attachment};
+    virga_result result = VIRGA_OK;
+    for (int i = 0; i < 3 && !result; i++)
+        result = check_attachment(context, def, subpass, written[i]);
+    return result ? result : check_pass_depth(log, def, subpass);
+}
+
 /* ---- classes */
 
 /* The members that decide what a pipeline is like. A render pass is known by its handle only, and a handle may be given
@@ -195,6 +259,8 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         result = check_formats(context, def);
     if (!result)
         result = check_extras(context, def);
+    if (!result)
+        result = check_pass(context, def);
     if (result)
         return result;
     virga_target *made = virga_alloc(&context->heap, sizeof *made);
@@ -202,6 +268,7 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         return virga_out_of_host_memory(context, "a target");
     made->context = context;
     made->def = *def;
+    made->def.render_pass_info = NULL; /* the host's */
     result = join_class(context, made);
     if (result) {
         virga_free(&context->heap, made);

@@ -84,6 +84,45 @@ static void completed_does_not_pass_the_newest_frame(void **state)
     virga_context_destroy(&context);
 }
 
+/* ---- rain that nobody sees */
+
+/* Seconds of rain, with the camera that far from the drops. Returns the number of lines about it. */
+static uint32_t lines_of_unseen_rain(gpu_fixture *f, double away_m)
+{
+    virga_context *context = gpu_context(f);
+    virga_rain *rain = gpu_rain(context);
+    gpu_picture picture;
+    gpu_picture_open(f, context, &picture);
+    virga_rain_settings settings = virga_default_rain_settings();
+    settings.rate_mm_h = 100;
+    REQUIRE(virga_rain_set(rain, &settings) == VIRGA_OK);
+    gpu_forget_log(f);
+    for (int frame = 0; frame < 40; frame++) {
+        const virga_rain_step_info step = {.dt_s = 0.25};
+        virga_view view = gpu_view(&picture);
+        view.position_m[0] = view.open_position_m[0] = away_m;
+        const VkCommandBuffer cmd = gpu_begin_frame(f, context);
+        assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_OK);
+        assert_int_equal(virga_rain_prepare(rain, cmd, &view, virga_rain_time(rain)), VIRGA_OK);
+        gpu_submit(f);
+    }
+    gpu_wait(f);
+    REQUIRE(virga_frame_completed(context, f->gpu.device.completed) == VIRGA_OK);
+    const uint32_t lines = f->lines[VIRGA_LOG_NOT_DRAWN];
+    virga_rain_destroy(&rain);
+    gpu_picture_close(f, &picture);
+    virga_context_destroy(&context);
+    return lines;
+}
+
+/* A camera in other units than the rain's. */
+static void rain_that_nobody_sees_is_told_once(void **state)
+{
+    gpu_fixture *f = *state;
+    assert_int_equal(lines_of_unseen_rain(f, 0), 0);
+    assert_int_equal(lines_of_unseen_rain(f, 1000), 1);
+}
+
 /* ---- timings */
 
 static VkPhysicalDeviceType lie_type_name;
@@ -140,6 +179,7 @@ int main(void)
         gpu_kept_test(occlusion_before_the_first_frame_is_refused),
         gpu_kept_test(frames_rise_and_completed_stays_behind),
         gpu_kept_test(completed_does_not_pass_the_newest_frame),
+        gpu_kept_test(rain_that_nobody_sees_is_told_once),
         gpu_kept_test(passes_are_timed_one_by_one_on_processors_alone),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -119,6 +119,73 @@ static void waiting_pipelines_move_to_another_target_of_the_class(void **state)
     close_targets(&t);
 }
 
+/* ---- a render pass, by what it was created with */
+
+static void refuse(targets *t, const virga_target_def *def, const char *why)
+{
+    virga_target *target = NULL;
+    gpu_forget_log(t->f);
+    assert_int_equal(virga_target_create(t->context, def, &target), VIRGA_ERROR_INVALID);
+    assert_null(target);
+    assert_one_error(t->f, VIRGA_LOG_ARGUMENT);
+    if (!strstr(t->f->last, why))
+        fail_msg("expected '%s' in: %s", why, t->f->last);
+}
+
+static void a_target_that_is_not_its_render_pass_is_refused(void **state)
+{
+    targets t;
+    open_targets(&t, state, VIRGA_PIPELINES_IMMEDIATE);
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkAttachmentDescription attachment = {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .samples = VK_SAMPLE_COUNT_1_BIT};
+    VkSubpassDescription subpass = {.colorAttachmentCount = 1, .pColorAttachments = &color};
+    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                         .attachmentCount = 1,
+                                         .pAttachments = &attachment,
+                                         .subpassCount = 1,
+                                         .pSubpasses = &subpass};
+    virga_target_def def = virga_default_target_def(), wrong;
+    host_target_describe_layer(&t.picture.images, &def);
+    def.render_pass_info = &info;
+    virga_target *target = NULL;
+    assert_int_equal(virga_target_create(t.context, &def, &target), VIRGA_OK);
+    virga_target_destroy(&target);
+    wrong = def;
+    wrong.subpass = 1;
+    refuse(&t, &wrong, "target_def.subpass");
+    wrong = def;
+    wrong.depth_attached = true;
+    refuse(&t, &wrong, "target_def.depth_attached");
+    wrong = def;
+    wrong.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
+    refuse(&t, &wrong, "color_formats[0]");
+    attachment.samples = VK_SAMPLE_COUNT_4_BIT;
+    refuse(&t, &def, "target_def.samples");
+    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+    attachment.format = VK_FORMAT_R8G8B8A8_UINT;
+    wrong = def;
+    wrong.color_formats[0] = VK_FORMAT_UNDEFINED;
+    refuse(&t, &wrong, "blend");
+    subpass.colorAttachmentCount = 0;
+    refuse(&t, &def, "target_def.color_count");
+    close_targets(&t);
+}
+
+static void strict_contexts_ask_for_it(void **state)
+{
+    targets t = {.f = *state};
+    virga_context_def def = gpu_context_def(t.f);
+    virga_target_def target = virga_default_target_def();
+    host_target images;
+    def.strict = true;
+    REQUIRE(virga_context_create(&def, &t.context) == VIRGA_OK);
+    REQUIRE(host_target_create(&t.f->gpu.device, 16, 16, &images, t.f->gpu.error, sizeof t.f->gpu.error));
+    host_target_describe_layer(&images, &target);
+    refuse(&t, &target, "render_pass_info");
+    host_target_destroy(&t.f->gpu.device, &images);
+    virga_context_destroy(&t.context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +193,8 @@ int main(void)
         gpu_kept_test(compatible_targets_compile_nothing),
         gpu_kept_test(pipelines_of_destroyed_targets_are_released),
         gpu_kept_test(waiting_pipelines_move_to_another_target_of_the_class),
+        gpu_kept_test(a_target_that_is_not_its_render_pass_is_refused),
+        gpu_kept_test(strict_contexts_ask_for_it),
     };
     return effect_fixture_close(cmocka_run_group_tests_name("targets", tests, NULL, NULL));
 }

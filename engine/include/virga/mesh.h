@@ -31,8 +31,9 @@ typedef struct virga_occluder {
     /* Added to each index. */
     int32_t vertex_base;
 
-    /* [-1e9; 1e9] 3 x 4 matrix, row-major: three rows of rotation and translation (m). An axis of all zeros is
-     * refused. */
+    /* [-1e9; 1e9] 3 x 4 matrix, row-major: three rows of rotation, scale and translation (m). Any scale is allowed, a
+     * different one for each axis and a mirror too: e.g. 0.0254 for vertices in inches. An axis of all zeros is
+     * refused. For a world with other units or axes see virga_world_mesh. */
     float world_from_mesh[12];
 
     /* [0; 255] number that impacts on it get, see virga/material.h. */

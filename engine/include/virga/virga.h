@@ -15,4 +15,5 @@
 #include <virga/state.h>
 #include <virga/vulkan.h>
 #include <virga/water.h>
+#include <virga/world.h>
 #endif

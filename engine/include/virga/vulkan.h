@@ -24,6 +24,12 @@
  * orders its own work by barriers alone. What a host writes (vertex buffers, images of a view) the host must make
  * visible before it calls Virga. What it gives to a frame must live until that frame has completed.
  *
+ * What calls change in a command buffer. Outside rendering: the compute pipeline, its descriptor set 0, and push
+ * constants. Those that draw into images of their own (occlusion maps, the ground's maps, water) change what draws
+ * change, and vertex buffer 0. Draws: the graphics pipeline, its descriptor set 0, push constants, the index buffer,
+ * viewport 0 and scissor 0, and the line width where the context has wide_lines. Nothing else, e.g. no stencil
+ * reference, depth bias or blend constants. Nothing is put back: the host sets what it needs again.
+ *
  * Thread-safety: calls on one context, and on objects made from it, must not overlap. Different contexts may be used
  * from different threads at the same time, also on the same device.
  */
@@ -32,6 +38,10 @@
 
 #include <virga/base.h>
 #include <vulkan/vulkan.h>
+
+#ifndef VK_API_VERSION_1_2
+#error "Virga needs the headers of Vulkan 1.2 or newer; these are older"
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -179,6 +189,10 @@ typedef struct virga_context_def {
     /* Writes timestamps around each pass. Ignored where the queue has no timestamps. Costs two timestamps per pass. On
      * a software device it also costs two barriers per pass, so that passes run one after another. Default true. */
     bool timings;
+
+    /* Refuses what Virga could only check with more information: a target for a render pass then needs
+     * render_pass_info. For development. Default false. */
+    bool strict;
 
     /* Names objects and labels passes for debuggers. Ignored unless get_instance_proc_addr returns the functions of
      * VK_EXT_debug_utils for the instance. Default true. */
@@ -334,6 +348,12 @@ typedef struct virga_target_def {
 
     /* (render pass) Index of the subpass. */
     uint32_t subpass;
+
+    /* (render pass, optional) What `render_pass` was created with. Vulkan can not be asked for it, so without it a
+     * subpass that does not exist, other samples or formats of integers are found by the validation layer at best, and
+     * crash some drivers. With it, wrong members of this definition are refused, each with a line that says what was
+     * expected. Only read in virga_target_create. Default NULL. */
+    const VkRenderPassCreateInfo *render_pass_info;
 
     /* (render pass) A number of your choice for render passes that are compatible with each other (Vulkan's chapter
      * "Render Pass Compatibility"), e.g. those of the same code before and after a resize. Targets with the same
