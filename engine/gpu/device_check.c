@@ -94,6 +94,10 @@ static virga_result check_features(const virga_functions *vk, VkPhysicalDevice d
     VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
     vk->GetPhysicalDeviceFeatures2(device, &features);
+    /* Every device of Vulkan 1.2 has these two. Asked through an older instance it seems to have no feature at all. */
+    if (!features12.timelineSemaphore && !features12.hostQueryReset)
+        return refuse(reason, size, "%s%s", "is asked through an instance that is older than Vulkan 1.2: ",
+                      "set VkApplicationInfo::apiVersion to 1.2");
     for (size_t i = 0; i < sizeof required / sizeof required[0]; i++)
         if (!*find_flag(&features, &required[i]))
             return refuse(reason, size, "lacks the feature %s (%s)", required[i].name, required[i].why);

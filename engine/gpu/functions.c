@@ -30,17 +30,18 @@ static PFN_vkVoidFunction find(const lookup *in, const char *name)
     return NULL;
 }
 
-static virga_result missing(const virga_log *log, const char *name)
+static virga_result missing(const virga_log *log, const lookup *in, const char *name)
 {
     virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FUNCTION_MISSING,
-                    "vkGetInstanceProcAddr gives no vk%s, neither by its core name nor with KHR or EXT", name);
+                    "vkGetInstanceProcAddr gives no vk%s, neither by its core name nor with KHR or EXT%s", name,
+                    in->device ? "" : "; an instance of Vulkan 1.0 does not: set VkApplicationInfo::apiVersion to 1.2");
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
 #define LOAD(name)                                    \
     functions->name = (PFN_vk##name)find(&in, #name); \
     if (!functions->name)                             \
-        return missing(log, #name);
+        return missing(log, &in, #name);
 
 virga_result virga_functions_load_instance(virga_functions *functions, const virga_log *log,
                                            PFN_vkGetInstanceProcAddr get, VkInstance instance)

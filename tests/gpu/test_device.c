@@ -281,6 +281,28 @@ static void instance_without_a_function_is_refused(void **state)
 {
     watch.hidden = "vkGetPhysicalDeviceFeatures2";
     check_refusal(*state, "vkGetPhysicalDeviceFeatures2", VIRGA_LOG_FUNCTION_MISSING);
+    check_refusal(*state, "apiVersion to 1.2", VIRGA_LOG_FUNCTION_MISSING);
+}
+
+/* Loaders give its functions, and drivers then tell of no feature: the instance is to blame, and not the device. */
+static void instance_of_vulkan_1_0_is_named(void **state)
+{
+    const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                           .apiVersion = VK_API_VERSION_1_0};
+    const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                       .pApplicationInfo = &application};
+    VkPhysicalDevice devices[8];
+    uint32_t count = 8;
+    VkInstance instance;
+    char reason[256] = "";
+    (void)state;
+    REQUIRE(vkCreateInstance(&info, NULL, &instance) == VK_SUCCESS);
+    REQUIRE(vkEnumeratePhysicalDevices(instance, &count, devices) >= 0 && count);
+    assert_int_equal(virga_check_device(vkGetInstanceProcAddr, instance, devices[0], reason, sizeof reason),
+                     VIRGA_ERROR_UNSUPPORTED);
+    if (!strstr(reason, "apiVersion to 1.2"))
+        fail_msg("no word of the instance in the reason: %s", reason);
+    vkDestroyInstance(instance, NULL);
 }
 
 int main(void)
@@ -298,6 +320,7 @@ int main(void)
         gpu_test(wide_lines_that_a_device_lacks_are_refused),
         gpu_test(device_without_a_format_is_refused),
         gpu_test(instance_without_a_function_is_refused),
+        gpu_test(instance_of_vulkan_1_0_is_named),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
