@@ -98,7 +98,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_CELLS] = far_cells ? (VkDeviceSize)far_cells * far_cells : 1;
     counts[COUNT_FAR_WIDTH] = far_cells > VIRGA_GROUND_MATERIALS ? far_cells : VIRGA_GROUND_MATERIALS;
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
-    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more where the window moves */
+    counts[COUNT_TICKS] =
+        def->max_ticks_per_step + 2; /* one more where the window moves, and one for simulated water */
 }
 
 #define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */
@@ -155,6 +156,7 @@ enum {
     BIND_FAR_DEPTH = 24,
     BIND_FAR_SURFACE,
     BIND_FAR_MAP,
+    BIND_WATER,
 };
 
 /* The bindings as the files in shaders/ground declare them. */
@@ -186,6 +188,7 @@ static const virga_binding_kind bindings[] = {
     [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},                       /* 24 */
     [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE},                     /* 25 */
     [BIND_FAR_MAP] = {IMAGE, COMPUTE},                           /* 26 */
+    [BIND_WATER] = {STORAGE, COMPUTE},                           /* 27 particles of simulated water */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -195,6 +198,7 @@ static const virga_effect_layout layouts[] = {
 static const virga_effect_pass passes[] = {
     PASS(tile_load),
     PASS(tile_discard),
+    PASS(touch),
     PASS(spawn_mark),
     PASS(spawn_scan),
     PASS(land),
@@ -393,6 +397,11 @@ static void write_set(virga_ground *ground, uint32_t source)
     bound[BIND_FAR_DEPTH] = sampled(ground, virga_mesh_map_depth(ground->far.height_map));
     bound[BIND_FAR_SURFACE] = sampled(ground, virga_mesh_map_surface(ground->far.height_map));
     bound[BIND_FAR_MAP] = written(ground->far.map);
+    bound[BIND_WATER] = info->water
+                            ? (virga_bound){.buffer = info->water,
+                                            .offset = info->water_offset,
+                                            .range = (VkDeviceSize)info->water_count * sizeof(virga_particle_gpu)}
+                            : (virga_bound){.buffer = ground->counts->buffer}; /* not read */
     ground->sets[source] = virga_bindings_write(context, ground->bindings, source, bound);
 }
 

@@ -37,6 +37,7 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     stats->returned_nl = count_of(&read, VIRGA_GROUND_RETURNED);
     stats->spray_nl = count_of(&read, VIRGA_GROUND_SPRAY);
     stats->spray_off_ground_nl = count_of(&read, VIRGA_GROUND_SPRAY_OFF);
+    stats->touched_nl = count_of(&read, VIRGA_GROUND_TOUCHED);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->off_ground_nl = count_of(&read, VIRGA_GROUND_OFF_GROUND);
@@ -103,6 +104,20 @@ static void fill_rain(const virga_ground *ground, virga_ground_tick_gpu *out)
         out->rain_per_m2_s = (float)((double)ground->info.open_rain_mm_h / 3.6e6 / virga_drop_volume(diameter));
 }
 
+/* Particles of simulated water touch the ground from a spacing above it on. */
+static void fill_water(const virga_ground *ground, virga_ground_tick_gpu *out)
+{
+    const virga_ground_step_info *info = &ground->info;
+    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
+    if (!info->water)
+        return;
+    out->water_count = info->water_count;
+    out->water_reach_m = info->water_spacing_m;
+    out->water_offset[0] = (float)(info->water_origin_m[0] - ground->window.low[0] * tile_m);
+    out->water_offset[1] = (float)(info->water_origin_m[1] - ground->base_m);
+    out->water_offset[2] = (float)(info->water_origin_m[2] - ground->window.low[1] * tile_m);
+}
+
 static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_tick_gpu *out)
 {
     const double cell = (double)ground->def.cell_m, area = cell * cell;
@@ -139,6 +154,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     for (int axis = 0; axis < 3; axis++)
         out->camera[axis] = (float)ground->info.camera_m[axis];
     fill_material_map(ground, out);
+    fill_water(ground, out);
     ground_fill_soils(&ground->settings, cell, out->soils);
     ground_standing_fill(ground->standing, out->soils, out->standing);
     ground_far_fill(ground, out);
@@ -393,6 +409,20 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     ground->ticks++;
 }
 
+/* Ground that simulated water touches becomes wet. */
+static void touch(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->base.context;
+    if (!ground->info.water || !ground->info.water_count)
+        return;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.touch");
+    push_tick(ground, 0);
+    bind(ground, cmd);
+    virga_dispatch_and_barrier(context, cmd, ground->touch,
+                               (ground->info.water_count + VIRGA_GROUND_GROUP - 1) / VIRGA_GROUND_GROUP);
+    virga_pass_end(context, cmd, scope);
+}
+
 static void measure(virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
@@ -473,6 +503,12 @@ static virga_result check_buffers(const virga_ground *ground, const virga_ground
          virga_host_list_check(context, "step_info.returned_droplets", info->returned_droplets_offset,
                                info->returned_droplets_size, sizeof(virga_impacts_gpu))))
         return VIRGA_ERROR_INVALID;
+    if (info->water && (info->water_offset % context->properties.limits.minStorageBufferOffsetAlignment ||
+                        !(info->water_spacing_m >= 0 && info->water_spacing_m <= 10) ||
+                        info->water_count > context->properties.limits.maxStorageBufferRange / 32))
+        return virga_wrong_argument(&context->log,
+                                    "step_info.water: expected an aligned offset, a spacing of 0 to 10 m, "
+                                    "and particles that fit into a storage buffer");
     if (info->splash_rules && info->splash_rules_offset % rules_alignment)
         return virga_wrong_argument(
             &context->log, "step_info.splash_rules_offset: expected a multiple of %llu on this device, got %llu",
@@ -494,6 +530,7 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
     if (virga_effect_check_ticks(&ground->base, &ticks, ground->ticks ? &ground->last_tick : NULL) ||
         virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_check_positions(log, "step_info.ripple_center_m", info->ripple_center_m, 3) ||
+        virga_settings_check_positions(log, "step_info.water_origin_m", info->water_origin_m, 3) ||
         virga_settings_check_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
         virga_settings_check_finite(log, "step_info.open_drop_m", &info->open_drop_m, 1) ||
         virga_settings_check_finite(log, "step_info.impacts_reach_m", &info->impacts_reach_m, 1) ||
@@ -522,6 +559,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     place_ripples(ground, info->ripple_center_m);
     follow(ground, cmd, info);
     ground->stats.tiles_cached = ground->window.cached_count;
+    touch(ground, cmd);
     if (!info->ticks) {
         push_tick(ground, 0);
         bind(ground, cmd);

@@ -120,6 +120,21 @@ static void fill_splashes(virga_splash *splash, virga_ground_step_info *info)
     info->returned_droplets_size = returned_droplets.size;
 }
 
+/* Water wets the ground that it touches. */
+static void fill_touching(const virga_scene *scene, const virga_scene_frame *frame, virga_ground_step_info *info)
+{
+    const virga_water *water = scene_find(scene, &water_type, 0);
+    virga_water_settings settings;
+    if (!water || !frame->water.count)
+        return;
+    virga_water_get(water, &settings);
+    info->water = frame->water.particles;
+    info->water_offset = frame->water.offset;
+    info->water_count = frame->water.count;
+    info->water_spacing_m = settings.spacing_m;
+    memcpy(info->water_origin_m, frame->water.origin_m, sizeof info->water_origin_m);
+}
+
 static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_splash *splash = scene_find(scene, &splash_type, 0);
@@ -128,45 +143,10 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
     memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
     memcpy(info.ripple_center_m, frame->ripple_center_m, sizeof info.ripple_center_m);
     fill_rainfall(rain_of(scene), &info);
+    fill_touching(scene, frame, &info);
     if (splash)
         fill_splashes(splash, &info);
     return virga_ground_step(scene_find(scene, &ground_type, index), cmd, &info);
-}
-
-/* ---- splashes: the ground emits them, and water hands droplets over */
-
-static void fill_floors(const virga_ground *ground, virga_splash_floors *floors)
-{
-    virga_ground_cells cells;
-    virga_ground_maps maps;
-    virga_ground_cells_get(ground, &cells);
-    virga_ground_maps_get(ground, &maps);
-    *floors = (virga_splash_floors){
-        cells.floors, cells.tiles, {cells.low_tile[0], cells.low_tile[1]}, maps.cell_m, cells.base_m};
-}
-
-/* Droplets are where the water's particles are: at the time of the frame, a part of a tick after the newest one. */
-static void fill_spray(const virga_scene *scene, const virga_scene_frame *frame, virga_splash_step_info *info)
-{
-    virga_water_leavers leavers;
-    virga_water_leavers_get(scene_find(scene, &water_type, 0), &leavers);
-    info->leavers = leavers.leavers;
-    info->leaver_table = leavers.table;
-    info->handed_late_s = (float)rain_since_tick_s(rain_of(scene));
-    memcpy(info->handed_origin_m, frame->water.origin_m, sizeof info->handed_origin_m);
-}
-
-static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
-{
-    virga_splash_step_info info = {.spawns_offset = 0};
-    memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
-    virga_ground_spawns(scene_find(scene, &ground_type, 0), &info.spawns, &info.spawns_size);
-    virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
-    virga_rain_wind(rain_of(scene), info.wind_m_s);
-    fill_floors(scene_find(scene, &ground_type, 0), &info.floors);
-    if (scene_find(scene, &water_type, 0))
-        fill_spray(scene, frame, &info);
-    return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
 }
 
 /* ---- panes: the rain finds the drops that hit them, or gives its rate */
@@ -207,15 +187,17 @@ static virga_result check_pane(const virga_scene *scene, uint32_t index, const v
     return VIRGA_OK;
 }
 
-/* Uses the rain's own drops if this pane can catch them: it is one of the catching panes and has no shelter. */
-static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
-                                virga_glass_step_info *info)
+/* Whether a pane can catch the rain's own drops, and spray: it is one of the catching panes and has no shelter. */
+static bool catches(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame)
+{
+    return index < scene->catching_panes && !(frame->panes[index].shelter > 0);
+}
+
+/* Its rectangle, as the rain takes it. */
+static virga_rain_pane rectangle_of(const virga_scene *scene, uint32_t index, const virga_scene_pane *pane)
 {
     virga_rain_pane caught;
-    virga_rain_buffer hits;
     float corner[3], along_u[3], along_v[3], offset[3];
-    if (index >= scene->catching_panes || pane->shelter > 0)
-        return VIRGA_OK;
     virga_glass_rectangle(scene_find(scene, &glass_type, index), corner, along_u, along_v, &caught.width_m,
                           &caught.height_m);
     turn_to_world(&pane->pose, corner, offset);
@@ -224,13 +206,39 @@ static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_
     for (int axis = 0; axis < 3; axis++)
         caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
     memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
+    return caught;
+}
+
+/* Gives spray to a pane that catches it, behind the rain's drops. Among the panes of the splashes it has the number of
+ * those that catch before it. */
+static virga_result catch_spray(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_frame *frame,
+                                const virga_rain_buffer *hits)
+{
+    virga_splash *splash = scene_find(scene, &splash_type, 0);
+    uint32_t number = 0, ticks;
+    for (uint32_t i = 0; i < index; i++)
+        number += catches(scene, i, frame);
+    virga_rain_ticks(rain_of(scene), NULL, &ticks);
+    if (!splash || !scene_find(scene, &water_type, 0) || !ticks || number >= VIRGA_SPLASH_MAX_PANES)
+        return VIRGA_OK;
+    return virga_splash_give_hits(splash, cmd, number, hits->buffer, hits->offset, hits->size);
+}
+
+/* Uses the rain's own drops if this pane can catch them. */
+static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
+                                const virga_scene_frame *frame, virga_glass_step_info *info)
+{
+    virga_rain_buffer hits;
+    if (!catches(scene, index, frame))
+        return VIRGA_OK;
+    const virga_rain_pane caught = rectangle_of(scene, index, pane);
     const virga_result result = virga_rain_find_hits(rain_of(scene), cmd, &caught, &hits);
     if (result < 0 || result == VIRGA_NOT_READY)
         return result;
     info->rate_mm_h = 0;
     info->impacts = hits.buffer;
     info->impacts_offset = hits.offset;
-    return result;
+    return scene_merge_results(result, catch_spray(scene, cmd, index, frame, &hits));
 }
 
 /* The pane gets the rain that falls on the ground, reduced by the pane's shelter. */
@@ -255,7 +263,7 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
     memcpy(info.angular_velocity_rad_s, pane->angular_velocity_rad_s, sizeof info.angular_velocity_rad_s);
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
-    virga_result result = catch_drops(scene, cmd, index, pane, &info);
+    virga_result result = catch_drops(scene, cmd, index, pane, frame, &info);
     if (result >= 0)
         result = virga_glass_step(scene_find(scene, &glass_type, index), cmd, &info);
     return result ? result : changed ? VIRGA_DEGRADED : VIRGA_OK;
@@ -299,6 +307,66 @@ virga_result virga_scene_prepare_panes_view(virga_scene *scene, VkCommandBuffer 
         result = scene_merge_results(result, prepared);
     }
     return result;
+}
+
+/* ---- splashes: the ground emits them, and water hands droplets over */
+
+static void fill_floors(const virga_ground *ground, virga_splash_floors *floors)
+{
+    virga_ground_cells cells;
+    virga_ground_maps maps;
+    virga_ground_cells_get(ground, &cells);
+    virga_ground_maps_get(ground, &maps);
+    *floors = (virga_splash_floors){
+        cells.floors, cells.tiles, {cells.low_tile[0], cells.low_tile[1]}, maps.cell_m, cells.base_m};
+}
+
+/* Droplets are where the water's particles are: at the time of the frame, a part of a tick after the newest one. */
+static void fill_spray(const virga_scene *scene, const virga_scene_frame *frame, virga_splash_step_info *info)
+{
+    virga_water_leavers leavers;
+    virga_water_leavers_get(scene_find(scene, &water_type, 0), &leavers);
+    info->leavers = leavers.leavers;
+    info->leaver_table = leavers.table;
+    info->handed_late_s = (float)rain_since_tick_s(rain_of(scene));
+    memcpy(info->handed_origin_m, frame->water.origin_m, sizeof info->handed_origin_m);
+}
+
+/* The panes that catch the rain's drops catch spray, too. */
+static uint32_t fill_panes(const virga_scene *scene, const virga_scene_frame *frame,
+                           virga_splash_pane panes[VIRGA_SPLASH_MAX_PANES])
+{
+    const uint32_t all = count_all_panes(scene);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < all && count < VIRGA_SPLASH_MAX_PANES; i++) {
+        if (!catches(scene, i, frame))
+            continue;
+        const virga_rain_pane from = rectangle_of(scene, i, &frame->panes[i]);
+        virga_splash_pane *to = &panes[count++];
+        *to = (virga_splash_pane){.width_m = from.width_m, .height_m = from.height_m};
+        memcpy(to->corner_m, from.corner_m, sizeof to->corner_m);
+        memcpy(to->along_u, from.along_u, sizeof to->along_u);
+        memcpy(to->along_v, from.along_v, sizeof to->along_v);
+        memcpy(to->velocity_m_s, from.velocity_m_s, sizeof to->velocity_m_s);
+    }
+    return count;
+}
+
+static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_splash_step_info info = {.spawns_offset = 0};
+    virga_splash_pane panes[VIRGA_SPLASH_MAX_PANES];
+    memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
+    virga_ground_spawns(scene_find(scene, &ground_type, 0), &info.spawns, &info.spawns_size);
+    virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
+    virga_rain_wind(rain_of(scene), info.wind_m_s);
+    fill_floors(scene_find(scene, &ground_type, 0), &info.floors);
+    if (scene_find(scene, &water_type, 0)) {
+        fill_spray(scene, frame, &info);
+        info.panes = panes;
+        info.pane_count = fill_panes(scene, frame, panes);
+    }
+    return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
 }
 
 /* ---- water: the host has its particles */

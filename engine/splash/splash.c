@@ -174,6 +174,8 @@ static const virga_effect_image images[] = {
 static const virga_effect_layout layouts[] = {
     [SPLASH_LAYOUT] = {AT(bindings), splash_bindings, SPLASH_BINDINGS, SPLASH_SETS, sizeof(uint32_t)},
     [SPLASH_LAYOUT_RECALL] = {AT(recall_bindings), splash_recall_bindings, SPLASH_RECALL_BINDINGS, 1, 0},
+    [SPLASH_LAYOUT_HITS] = {AT(hits_bindings), splash_hits_bindings, SPLASH_HITS_BINDINGS, VIRGA_SPLASH_MAX_PANES,
+                            2 * sizeof(uint32_t)},
 };
 
 static const virga_effect_pass passes[] = {
@@ -182,7 +184,8 @@ static const virga_effect_pass passes[] = {
     STEP(fly),
     STEP(fall_scan),
     STEP(fall_compact),
-    {"splash.recall", AT(recall), VIRGA_SPIRV_ROW(splash_step_recall_comp), .layout = SPLASH_LAYOUT_RECALL},
+    STEP(recall, .layout = SPLASH_LAYOUT_RECALL),
+    STEP(give_hits, .layout = SPLASH_LAYOUT_HITS),
     STEP(adopt),
     STEP(adopt_end),
     STEP(rebase),

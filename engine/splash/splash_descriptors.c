@@ -66,6 +66,23 @@ VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash
     return virga_bindings_write(splash->base.context, splash->recall_bindings, 0, bound);
 }
 
+/* Of the pass that gives hits to a pane. */
+enum { HITS_LIST = 1 };
+
+const virga_binding_kind splash_hits_bindings[SPLASH_HITS_BINDINGS] = {
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returned_droplets)}, /* 0 */
+    [HITS_LIST] = {STORAGE, COMPUTE},                               /* 1 */
+};
+
+VkDescriptorSet splash_write_hits_set(virga_splash *splash, uint32_t index, VkBuffer hits, VkDeviceSize offset,
+                                      VkDeviceSize size)
+{
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&splash->base, splash->hits_bindings, bound);
+    bound[HITS_LIST] = (virga_bound){.buffer = hits, .offset = offset, .range = size};
+    return virga_bindings_write(splash->base.context, splash->hits_bindings, index, bound);
+}
+
 /* A host's buffer, or one that is bound in its place and not accessed. */
 static virga_bound bound_or_marks(const virga_splash *splash, VkBuffer buffer)
 {

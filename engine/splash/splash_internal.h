@@ -33,9 +33,9 @@ void splash_push_rules(virga_splash *splash);
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
-enum { SPLASH_BINDINGS = 23, SPLASH_RECALL_BINDINGS = 4 };
+enum { SPLASH_BINDINGS = 23, SPLASH_RECALL_BINDINGS = 4, SPLASH_HITS_BINDINGS = 2 };
 
-enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL };
+enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL, SPLASH_LAYOUT_HITS };
 
 #define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of the passes that depend only on the style */
 
@@ -102,8 +102,9 @@ struct virga_splash {
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
-    virga_bindings *bindings, *recall_bindings;
-    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices, *recall, *adopt, *adopt_end;
+    virga_bindings *bindings, *recall_bindings, *hits_bindings;
+    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices, *recall, *adopt, *adopt_end,
+        *give_hits;
     virga_pipeline *view_scan, *view_compact;
     virga_pipeline *few_mark[SPLASH_STYLES], *droplet_mark[SPLASH_STYLES], *splash_mark[SPLASH_STYLES];
     virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];
@@ -113,6 +114,8 @@ struct virga_splash {
     VkDeviceSize spawns_offset, spawns_range;
     const virga_splash_step_info *info;        /* of the step that is being recorded; NULL at other times */
     splash_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
+    uint64_t hits_frame;                       /* in which hits were given last */
+    uint32_t hits_given;                       /* panes that got theirs in that frame, a bit for each */
     virga_splash_stats stats;
 };
 
@@ -136,10 +139,13 @@ static inline uint32_t splash_max_crowns(const virga_splash_def *def)
 }
 
 /* ---- splash_descriptors.c */
-extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS], splash_recall_bindings[SPLASH_RECALL_BINDINGS];
+extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS], splash_recall_bindings[SPLASH_RECALL_BINDINGS],
+    splash_hits_bindings[SPLASH_HITS_BINDINGS];
 
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
+VkDescriptorSet splash_write_hits_set(virga_splash *splash, uint32_t index, VkBuffer hits, VkDeviceSize offset,
+                                      VkDeviceSize size);
 VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info);
 /* Binds a set for passes, with the newest tick, view and rules. */
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set);

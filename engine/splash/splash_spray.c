@@ -3,6 +3,7 @@
 #include "splash/splash_internal.h"
 
 #include "core/settings.h"
+#include "gpu/checks.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -85,8 +86,7 @@ static void recall(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
 {
     virga_context *context = splash->base.context;
     const VkDescriptorSet set = splash_write_recall_set(splash, info);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->recall_bindings->layout, 0, 1, &set,
-                                      0, NULL);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->recall_bindings, set, 0, NULL);
     virga_dispatch_indirect_and_barrier(context, cmd, splash->recall, splash->state->buffer,
                                         offsetof(virga_splash_state_gpu, view_groups));
 }
@@ -106,4 +106,48 @@ void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_
                                         offsetof(virga_handed_droplets_gpu, group_count));
     virga_dispatch_and_barrier(context, cmd, splash->adopt_end, 1);
     virga_pass_end(context, cmd, scope);
+}
+
+/* ---- panes */
+
+static virga_result check_hits(const virga_splash *splash, VkCommandBuffer cmd, uint32_t pane, VkBuffer hits,
+                               VkDeviceSize offset, VkDeviceSize size)
+{
+    const virga_context *context = splash->base.context;
+    const VkDeviceSize least = sizeof(virga_impacts_gpu) + sizeof(virga_impact_gpu);
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!cmd || !hits || pane >= VIRGA_SPLASH_MAX_PANES || size < least)
+        return virga_wrong_argument(&context->log,
+                                    "virga_splash_give_hits: expected a list of at least %llu bytes for "
+                                    "a pane below %d, got %llu bytes for pane %u",
+                                    (unsigned long long)least, VIRGA_SPLASH_MAX_PANES, (unsigned long long)size, pane);
+    if (splash->base.step_frame != context->frame_index)
+        return virga_wrong_argument(&context->log, "virga_splash_give_hits: expected virga_splash_step before it");
+    if (splash->hits_frame == context->frame_index && splash->hits_given & 1u << pane)
+        return virga_wrong_argument(&context->log, "virga_splash_give_hits: twice for pane %u in a frame", pane);
+    return virga_host_list_check(context, "hits", offset, size, least);
+}
+
+virga_result virga_splash_give_hits(virga_splash *splash, VkCommandBuffer cmd, uint32_t pane, VkBuffer hits,
+                                    VkDeviceSize offset, VkDeviceSize size)
+{
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = check_hits(splash, cmd, pane, hits, offset, size);
+    if (result)
+        return result;
+    virga_context *context = splash->base.context;
+    if (splash->hits_frame != context->frame_index)
+        splash->hits_given = 0;
+    splash->hits_frame = context->frame_index;
+    splash->hits_given |= 1u << pane;
+    const uint32_t push[2] = {pane, (uint32_t)((size - sizeof(virga_impacts_gpu)) / sizeof(virga_impact_gpu))};
+    const VkDescriptorSet set = splash_write_hits_set(splash, pane, hits, offset, size);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.hits");
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->hits_bindings, set, 0, NULL);
+    context->vk.CmdPushConstants(cmd, splash->hits_bindings->layout, VIRGA_ALL_STAGES, 0, sizeof push, push);
+    virga_dispatch_and_barrier(context, cmd, splash->give_hits, 1);
+    virga_pass_end(context, cmd, scope);
+    return VIRGA_OK;
 }

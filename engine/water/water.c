@@ -42,7 +42,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
     SETTING(FLOAT, spray_turbulence, 0, 1, 0.1),
     SETTING(BOOL, hand_over, false, true, true),
-    SETTING(FLOAT, hand_over_s, 0, 10, 0.1),
+    SETTING(FLOAT, hand_over_s, 0, 10, 0.03),
     SETTING(FLOAT, foam_air_hz, 0, 1e6, 600),
     SETTING(FLOAT, foam_crest_hz, 0, 1e6, 600),
     SETTING(FLOAT, foam_speed_m_s[0], 0, 1000, 0.6),

@@ -100,6 +100,10 @@ struct virga_ground_tick_gpu {
     float far_even[2];
     float rain_per_m2_s; /* drops per m^2 and s that land on open ground */
     float rain_drop_m;   /* m, diameter of those drops */
+    /* Simulated water that may touch the ground. */
+    uint water_count;      /* particles */
+    float water_offset[3]; /* m, from the window's low corner, at the height base_m, to the origin of their positions */
+    float water_reach_m;   /* height of their centers above the ground up to which they touch it */
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
@@ -141,13 +145,14 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_RETURNED       8  /* part of FLOWN that fell back */
 #define VIRGA_GROUND_SPRAY          9  /* part of LANDED that is spray of simulated water */
 #define VIRGA_GROUND_SPRAY_OFF      10 /* part of OFF_GROUND that is */
-#define VIRGA_GROUND_FIRST_MEASURED 11
-#define VIRGA_GROUND_FILM           11 /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES        12 /* free water of puddles */
-#define VIRGA_GROUND_HELD           13 /* in pores */
-#define VIRGA_GROUND_CACHED         14 /* all water of cached tiles, which are outside the window */
-#define VIRGA_GROUND_CELLS          15 /* number of cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS         21
+#define VIRGA_GROUND_TOUCHED        11 /* from simulated water that touched it */
+#define VIRGA_GROUND_FIRST_MEASURED 12
+#define VIRGA_GROUND_FILM           12 /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES        13 /* free water of puddles */
+#define VIRGA_GROUND_HELD           14 /* in pores */
+#define VIRGA_GROUND_CACHED         15 /* all water of cached tiles, which are outside the window */
+#define VIRGA_GROUND_CELLS          16 /* number of cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS         22
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
@@ -156,7 +161,7 @@ VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 192 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 212 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

@@ -1,5 +1,5 @@
-/* test_scene_spray.c - spray of simulated water goes on living: its droplets fly, wet the ground, and end where their
- * particle falls back into the water. All of it is counted to the nanolitre, in lost frames too. */
+/* test_scene_spray.c - spray of simulated water goes on living: its droplets fly, wet the ground, land on a pane, and
+ * end where their particle falls back into the water. All of it is counted to the nanolitre, in lost frames too. */
 #include "../gpu/small_scene.h"
 #include "../host/effect_fixture.h"
 
@@ -68,7 +68,17 @@ static void move_particles(double time_s)
 
 /* ---- a scene without rain */
 
-static virga_scene_def scene_def(uint32_t max_droplets)
+static virga_glass_def pane_def(void)
+{
+    virga_glass_def def = small_glass_def();
+    def.width_m = 0.8f;
+    def.height_m = 0.6f;
+    def.cell_m = 0.01f;
+    def.max_drops = 4096;
+    return def;
+}
+
+static virga_scene_def scene_def(uint32_t max_droplets, const virga_glass_def *pane)
 {
     virga_scene_def def = virga_default_scene_def();
     def.rain = small_rain_def();
@@ -80,6 +90,8 @@ static virga_scene_def scene_def(uint32_t max_droplets)
     def.water.max_particles = 4096;
     def.water.max_cells = 32768;
     def.water.max_width = def.water.max_height = 0;
+    def.panes = pane;
+    def.pane_count = 1;
     return def;
 }
 
@@ -111,7 +123,8 @@ static void open_buffers(void)
 
 static void open_run(const virga_water_settings *water, uint32_t max_droplets)
 {
-    const virga_scene_def def = scene_def(max_droplets);
+    const virga_glass_def pane = pane_def();
+    const virga_scene_def def = scene_def(max_droplets, &pane);
     virga_rain_settings rain = virga_default_rain_settings();
     memset(&run, 0, sizeof run);
     run.context = effect_fixture_open(&run.gpu, false, effect_fixture_log, NULL);
@@ -149,11 +162,14 @@ static VkCommandBuffer record_frame(double time_s)
 {
     const virga_occluder square = small_occluder(run.vertices.buffer, run.indices.buffer);
     const VkCommandBuffer cmd = effect_fixture_begin(&run.gpu, run.context);
+    /* Upright, its sides along z and y, beside the pool. */
+    const virga_scene_pane pane = {.pose = {.position_m = {0.2, 0, -0.3}, .world_from_pane = {0, 0, 1, 0, 1, 0, -1}}};
     const virga_scene_frame frame = {
         .dt_s = FRAME_S,
         .camera_m = {0, 1.7, 0},
         .occluders = &square,
         .occluder_count = 1,
+        .panes = &pane,
         .water = {.particles = run.particles.buffer, .count = POOL + JUMPERS, .time_s = time_s}};
     move_particles(time_s);
     assert_int_equal(virga_scene_record(run.scene, cmd, &frame), VIRGA_OK);
@@ -218,17 +234,21 @@ static void check_budget(void)
     virga_water_stats water;
     virga_splash_stats splash;
     virga_ground_stats ground;
+    virga_glass_stats pane;
     virga_water_stats_get(virga_scene_water(run.scene), &water);
     virga_splash_stats_get(virga_scene_splash(run.scene), &splash);
     virga_ground_stats_get(virga_scene_ground(run.scene), &ground);
+    virga_glass_stats_get(virga_scene_glass(run.scene, 0), &pane);
     if (run.frames == 1)
         returned_before = 0;
     assert_int_equal(water.handed_nl, splash.spray_nl);
-    assert_int_equal(splash.spray_nl - splash.spray_back_nl - splash.spray_returned_nl, in_the_air());
+    assert_int_equal(splash.spray_nl - splash.spray_back_nl - splash.spray_returned_nl - splash.spray_panes_nl,
+                     in_the_air());
+    assert_int_equal(pane.landed_nl, splash.spray_panes_nl);
     /* The newest come to the ground in its next step. */
     assert_in_range(ground.spray_nl + ground.spray_off_ground_nl, returned_before, splash.spray_returned_nl);
     assert_true(water.taken_back_nl <= splash.spray_back_nl);
-    assert_int_equal(ground.start_nl + ground.landed_nl,
+    assert_int_equal(ground.start_nl + ground.landed_nl + ground.touched_nl,
                      ground.film_nl + ground.puddles_nl + ground.held_nl + ground.cached_nl + ground.infiltrated_nl +
                          ground.run_off_nl + ground.evaporated_nl + ground.evicted_nl);
     assert_int_equal(splash.flown_nl, 0);
@@ -274,7 +294,10 @@ static void all_of_it_is_in_the_air_or_landed_or_the_waters_again(void **state)
     assert_true(splash.spray_nl > 50 * 8000000u);
     assert_true(splash.spray_back_nl > 8000000 && ground.spray_nl > 20 * 8000000u);
     assert_int_equal(in_the_air(), 0);
-    assert_int_equal(splash.spray_nl, splash.spray_back_nl + ground.spray_nl + ground.spray_off_ground_nl);
+    assert_int_equal(splash.spray_nl,
+                     splash.spray_back_nl + splash.spray_panes_nl + ground.spray_nl + ground.spray_off_ground_nl);
+    assert_true(splash.spray_panes_nl > 5 * 8000000u);
+    assert_true(ground.touched_nl > 0);
     close_run();
 }
 

@@ -349,9 +349,9 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* start + rained_total + spray + spray_off_ground = off_ground + absorbed + film + puddle + run_off + evaporated +
- * cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes and has not fallen back
- * yet; spray is of simulated water, and has landed. */
+/* start + rained_total + spray + spray_off_ground + touched = off_ground + absorbed + film + puddle + run_off +
+ * evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes and has not
+ * fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such water. */
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
@@ -363,6 +363,7 @@ static void write_water(const virga_ground_stats *now, jsonl *stats)
     jsonl_number(stats, "evaporated", (double)now->evaporated_nl * 1e-3);
     jsonl_number(stats, "cached", (double)now->cached_nl * 1e-3);
     jsonl_number(stats, "evicted", (double)now->evicted_nl * 1e-3);
+    jsonl_number(stats, "touched", (double)now->touched_nl * 1e-3);
     jsonl_number(stats, "spray", (double)now->spray_nl * 1e-3);
     jsonl_number(stats, "spray_off_ground", (double)now->spray_off_ground_nl * 1e-3);
     jsonl_number(stats, "in_air", (double)(now->flown_nl - now->returned_nl) * 1e-3);

@@ -47,7 +47,7 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, spray_pattern, 0, 4, "1.25", LIVE, "radius of the ball that they are in, in spacings"),
     SWITCH(scene_water, hand_over, "true", LIVE,
            "spray flies on as droplets of splashes, and wets what it hits; needs splash.on"),
-    NUMBER(scene_water, hand_over_s, 0, 10, "0.1", LIVE, "time after which spray is handed over"),
+    NUMBER(scene_water, hand_over_s, 0, 10, "0.03", LIVE, "time after which spray is handed over"),
     NUMBER(scene_water, foam_air_hz, 0, 1000000, "600", LIVE,
            "particles of foam that one of water makes in a second where it traps air; 0: none"),
     NUMBER(scene_water, foam_crest_hz, 0, 1000000, "600", LIVE, "the same at the crests of waves"),

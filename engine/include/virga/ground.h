@@ -36,6 +36,7 @@
 #include <virga/shared/ground_limits.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/landing.h>
+#include <virga/shared/particle.h>
 #include <virga/shared/spawn.h>
 #include <virga/shared/splash_rule.h>
 
@@ -233,6 +234,19 @@ typedef struct virga_ground_step_info {
     /* (optional) Distance from the camera up to which impacts land (m). Cells of the window beyond it get no rain, see
      * virga_ground_maps.reach_m. 0: impacts land in the whole window. */
     float impacts_reach_m;
+
+    /* (optional) Particles of simulated water, as virga_water_step takes them: `water_count` virga_particle_gpu from
+     * `water_offset` on, a multiple of the device's minStorageBufferOffsetAlignment; ready to be read by compute
+     * shaders. Ground that is nearer below them than `water_spacing_m` ([0; 10], their distance at rest) becomes wet:
+     * its pores are filled, and it gets a film of 0.05 mm. VK_NULL_HANDLE: there is none. Costs a pass over the
+     * particles. */
+    VkBuffer water;
+    VkDeviceSize water_offset;
+    uint32_t water_count;
+    float water_spacing_m;
+
+    /* [-1e9; 1e9] position in the world (m) that their positions are relative to. */
+    double water_origin_m[3];
 } virga_ground_step_info;
 
 /* Lets the impacts land, runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read by
@@ -325,7 +339,7 @@ VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer,
 
 /* The newest statistics of completed frames. Water is in nanolitres, since creation or, in the last group, now. While
  * `measure` is on, and as long as rain drops no impact for lack of room:
- *     start + landed = film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
+ *     start + landed + touched = film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
 typedef struct virga_ground_stats {
     /* 0: none yet. */
     uint64_t frame_index;
@@ -342,6 +356,9 @@ typedef struct virga_ground_stats {
 
     /* Spray of simulated water that fell on cells, and that fell elsewhere: parts of landed_nl and off_ground_nl. */
     uint64_t spray_nl, spray_off_ground_nl;
+
+    /* Taken from simulated water that touched it. The simulation keeps its volume. */
+    uint64_t touched_nl;
 
     /* Gone: sunk in, run into drains, evaporated, dropped with tiles. */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, evicted_nl;

@@ -278,6 +278,14 @@ typedef struct virga_splash_step_info {
  * next to nothing. */
 VIRGA_API virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
 
+/* Gives spray that has hit a pane in this frame's step to the pane's list of impacts, behind those that are there: a
+ * virga_impacts_gpu and its entries, as virga_rain_find_hits returns it and virga_glass_step reads it. Outside
+ * rendering, after the step, at most once for each pane; not in a frame without ticks. `pane`: its index in
+ * step_info.panes. `hits`: a storage buffer, ready to be read and written by compute shaders, as it is afterwards.
+ * `offset`: as step_info.spawns_offset. `size`: in bytes. What hits a pane and is not given to it is lost. */
+VIRGA_API virga_result virga_splash_give_hits(virga_splash *splash, VkCommandBuffer cmd, uint32_t pane, VkBuffer hits,
+                                              VkDeviceSize offset, VkDeviceSize size);
+
 /* Returns the simulated time (s) that draw times count from: the end of the newest tick. The first tick of the first
  * step began at 0. */
 VIRGA_API double virga_splash_time(const virga_splash *splash);
@@ -328,7 +336,7 @@ typedef struct virga_splash_stats {
     uint64_t flown_nl, returned_nl;
 
     /* Spray, which is not part of those two: water that was taken over, that was the water's again because its particle
-     * fell back, that fell on the ground or beside it, and that was given to panes. What is left is in the air. */
+     * fell back, that fell on the ground or beside it, and that hit panes. What is left is in the air. */
     uint64_t spray_nl, spray_back_nl, spray_returned_nl, spray_panes_nl;
 
     /* At the newest tick. splashes_alive: slots from the oldest live splash on. */

@@ -170,7 +170,7 @@ typedef struct virga_water_settings {
     bool hand_over;
 
     /* [0; 10] time since a particle has left the water (s) from which on its droplets are handed over, once for each
-     * particle that leaves. Until then it may fall back as it was. Default 0.1. */
+     * particle that leaves. Until then it may fall back as it was. Default 0.03. */
     float hand_over_s;
 
     /* ---- foam: spray, foam on the surface and bubbles, after Ihmsen et al. 2012, "Unified spray, foam and air bubbles

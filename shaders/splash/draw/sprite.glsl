@@ -59,6 +59,8 @@ Sprite empty_sprite()
     return sprite;
 }
 
+#define CLEAR_S 0.15 // age of spray from which on it is as visible as other droplets
+
 // All of these `ago_s` before the time that is drawn, 0 for now.
 Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
 {
@@ -70,6 +72,10 @@ Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
     sprite.widths = vec2(droplet.diameter_m);
     sprite.body = droplet.diameter_m;
     sprite.weight = rests ? 0.0 : droplet_weight(droplet);
+    // Water that has just left is clear; it takes a moment until it shows its surroundings as drops do. So spray does
+    // not change at once when water hands it over.
+    if ((droplet.kind & VIRGA_DROPLET_SPRAY) != 0u)
+        sprite.gain = clamp((droplet.age_s + view.time_close_s - ago_s) / CLEAR_S, 0.1, 1.0);
     sprite.id = droplet.id;
     return sprite;
 }

@@ -24,6 +24,6 @@ void compact_droplet(uint slot, virga_droplet_gpu droplet, uint first, uint room
     write_return(first + fallen, to_vec(droplet.position), to_vec(droplet.velocity), diameter, droplet.id,
                  VIRGA_DROPLET_MATERIAL(droplet.kind) | (spray ? VIRGA_IMPACT_SPRAY | pane << 16 : 0u),
                  droplet.water_nl);
-    if (pane == 0u) // those of panes are counted when they are given to them
-        count(spray ? VIRGA_SPLASH_SPRAY_RETURNED : VIRGA_SPLASH_RETURNED, droplet.water_nl);
+    count(pane > 0u ? VIRGA_SPLASH_SPRAY_PANES : spray ? VIRGA_SPLASH_SPRAY_RETURNED : VIRGA_SPLASH_RETURNED,
+          droplet.water_nl);
 }
