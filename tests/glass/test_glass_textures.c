@@ -309,6 +309,24 @@ static void textures_of_a_lost_frame_are_made_again(void **state)
     close_textures(&t);
 }
 
+/* ---- memory */
+
+/* A far window of a facade: of a hundred there is room for all where there is not for ten with a height map. */
+static void a_far_window_takes_a_tenth_of_the_memory(void **state)
+{
+    (void)state;
+    virga_glass_def near = virga_default_glass_def(), far;
+    near.width_m = 1.2f;
+    near.height_m = 1.5f;
+    far = near;
+    far.cell_m = 0.005f;
+    far.max_drops = 2048;
+    far.max_texels = 64;
+    far.texture_columns = far.texture_rows = 5;
+    far.texture_texels = 8;
+    assert_true(10 * virga_glass_estimate(&far) < virga_glass_estimate(&near));
+}
+
 /* ---- from shapes to textures */
 
 /* A bright sky over a dark street with lamps. */
@@ -445,6 +463,7 @@ int main(void)
         cmocka_unit_test(in_turn_they_end_up_the_same_as_at_once),
         cmocka_unit_test(before_a_photo_they_are_kept_until_the_camera_moves),
         cmocka_unit_test(textures_of_a_lost_frame_are_made_again),
+        cmocka_unit_test(a_far_window_takes_a_tenth_of_the_memory),
         cmocka_unit_test(a_zoom_does_not_show_where_drops_turn_into_textures),
         cmocka_unit_test(any_number_of_threads_draws_the_same),
         cmocka_unit_test(a_reversed_depth_draws_the_same),

@@ -24,7 +24,7 @@ layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[];
 layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
 #define POINT_PX 0.5         // radius of a drop without a rim
-#define MIXED vec2(0.3, 0.7) // part of the way from a level to the next in which both are mixed
+#define MIXED vec2(0.6, 1.0) // part of the way from a level to the next in which both are mixed
 
 // Pixels per unit along a direction from a point, both in clip space.
 vec2 pixels_along(vec4 clip, vec4 direction)

@@ -24,6 +24,7 @@ vec2 here_px;
 layout(local_size_x = VIRGA_GLASS_TEXTURE_GROUP) in;
 layout(set = 0, binding = 29, rgba16f) uniform writeonly image2D textures_out;
 
+#define FOOTPRINT 0.7 // of a texel: the filter of the draw blurs, too
 #define RIM 0.97       // radius of the outermost ray
 #define MAX_HALF 6.0e4 // in a half float
 
@@ -56,7 +57,7 @@ void main()
     const vec2 offset = (vec2(texel) + 0.5) * 2.0 / float(texels) - 1.0;
     const vec2 at = offset * min(1.0, RIM / max(length(offset), 1e-6));
     const vec3 d = normalize(position);
-    const vec3 light = drop_light(path_through_drop(at, d, 2.0 / float(texels)), d);
+    const vec3 light = drop_light(path_through_drop(at, d, FOOTPRINT * 2.0 / float(texels)), d);
     const uvec2 corner = point * uvec2(2u * side, side) + uvec2(2u * (side - texels), 0u);
     imageStore(textures_out, ivec2(corner + texel), vec4(min(light, MAX_HALF), 1.0));
 }

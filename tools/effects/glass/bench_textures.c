@@ -174,8 +174,8 @@ bool glass_bench_textures(bench *b)
     uint32_t drops = 0;
     bool good = open_pane(b, &p) && draw_photo(b, &p) && set_way(&p, &ways[0]) && get_wet(b, &p, &drops);
     if (good) {
-        printf("%u drops on %u x %u pixels, a pane of 0.4 x 0.3 m; the paper: %d frames a second\n", drops, WIDTH,
-               HEIGHT, PAPER_FPS);
+        printf("%u drops on %u x %u pixels, a pane of 0.4 x 0.3 m, medians of %d; the paper: %d frames a second\n",
+               drops, WIDTH, HEIGHT, RUNS, PAPER_FPS);
         printf("  %-38s %10s  %10s  %10s  %10s  %11s  %8s\n", "", "textures", "draw", "processors", "a frame",
                "with a tick", "a second");
     }
