@@ -149,11 +149,11 @@ double virga_drop_oscillation_hz(double diameter_m)
 
 double virga_drop_volume(double diameter_m)
 {
-    double diameter = diameter_m > 0.0 ? diameter_m : 0.0;
+    const double diameter = clamp(diameter_m, 0.0, 1.0);
     return pi / 6.0 * diameter * diameter * diameter;
 }
 
 double virga_rain_extinction(double rate_mm_h)
 {
-    return rate_mm_h > 0.0 ? 0.312e-3 * pow(rate_mm_h, 0.67) : 0.0;
+    return 0.312e-3 * pow(clamp(rate_mm_h, 0.0, 1e6), 0.67);
 }

@@ -44,7 +44,6 @@ double virga_drop_phase(double cos_angle)
 
 void virga_drop_phase_moments(double moments[3])
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; moments && i < 3; i++)
         moments[i] = legendre_moments[i];
-    }
 }

@@ -258,9 +258,13 @@ static virga_result check_block(const virga_log *log, const virga_fluid_block *b
 
 virga_result virga_fluid_add(virga_fluid *fluid, const virga_fluid_block *block)
 {
-    if (!fluid || !block)
+    if (!fluid)
         return VIRGA_ERROR_INVALID;
     const virga_log *log = &fluid->base.context->log;
+    if (!block)
+        return virga_wrong_argument(log, "virga_fluid_add: NULL argument");
+    if (fluid->base.context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     const double spacing = (double)fluid->settings.spacing_m;
     if (check_block(log, block))
         return VIRGA_ERROR_INVALID;

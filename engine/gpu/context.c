@@ -176,17 +176,39 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
     return VIRGA_OK;
 }
 
+static void end(virga_context *context)
+{
+    destroy_objects(context);
+    free_context(context);
+}
+
 void virga_context_destroy(virga_context **context)
 {
     if (!context || !*context)
         return;
     virga_context *object = *context;
-    if (object->effects)
-        virga_log_write(&object->log, VIRGA_LOG_ERROR, VIRGA_LOG_LIVE_OBJECTS,
-                        "%u effects are alive while their context is destroyed; destroy them first", object->effects);
-    destroy_objects(object);
-    free_context(object);
     *context = NULL;
+    object->closed = true;
+    if (!object->members) {
+        end(object);
+        return;
+    }
+    virga_log_write(&object->log, VIRGA_LOG_ERROR, VIRGA_LOG_LIVE_OBJECTS,
+                    "virga_context_destroy: %u effects, targets and scenes of it still exist: destroy them first; the "
+                    "context ends with the last one",
+                    object->members);
+    object->lost = true; /* calls on them are refused from now on */
+}
+
+void virga_context_join(virga_context *context)
+{
+    context->members++;
+}
+
+void virga_context_leave(virga_context *context)
+{
+    if (!--context->members && context->closed)
+        end(context);
 }
 
 /* ---- frames */

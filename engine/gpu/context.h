@@ -55,6 +55,8 @@ struct virga_context {
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */
     uint32_t effect_serial;         /* of the newest effect */
+    uint32_t members;               /* effects, targets and scenes that exist: see virga_context_leave */
+    bool closed;                    /* the host has destroyed it; it ends with its last member */
     struct virga_effect *first_effect;
     virga_target *first_target;
     struct virga_target_class *first_target_class;
@@ -65,5 +67,10 @@ struct virga_context {
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* waiting, in the order of the requests */
 };
+
+/* An effect, target or scene begins to use the context, and ends. If the host has destroyed the context already, it is
+ * freed with its last member. */
+void virga_context_join(virga_context *context);
+void virga_context_leave(virga_context *context);
 
 #endif

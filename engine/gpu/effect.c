@@ -257,6 +257,7 @@ static virga_result make(virga_context *context, const virga_effect_type *type, 
     effect->next_effect = context->first_effect;
     context->first_effect = effect;
     context->effects++;
+    virga_context_join(context);
     const virga_result result = init(effect);
     if (result < 0) {
         virga_effect_destroy(effect);
@@ -368,6 +369,15 @@ void virga_effect_destroy(virga_effect *effect)
     retire_passes(effect);
     retire_rows(effect);
     virga_free(&context->heap, effect);
+    virga_context_leave(context);
+}
+
+void virga_effect_destroy_by_host(virga_effect *effect, const char *call)
+{
+    if (effect->of_scene)
+        virga_wrong_argument(&effect->context->log, "%s: it belongs to a scene, and is destroyed with that", call);
+    else
+        virga_effect_destroy(effect);
 }
 
 virga_result virga_effect_ready(const virga_effect *effect)

@@ -304,7 +304,7 @@ typedef struct virga_effect_type {
     void virga_##name##_destroy(virga_##name **object)                                                             \
     {                                                                                                              \
         if (object && *object)                                                                                     \
-            virga_effect_destroy(&(*object)->base);                                                                \
+            virga_effect_destroy_by_host(&(*object)->base, "virga_" #name "_destroy");                             \
         if (object)                                                                                                \
             *object = NULL;                                                                                        \
     }                                                                                                              \
@@ -403,6 +403,7 @@ typedef struct virga_effect {
     virga_context *context;
     struct virga_effect *next_effect; /* of the context */
     virga_journal journal;
+    bool of_scene;                   /* a scene destroys it */
     virga_progress contents, images; /* first contents: of buffers and passing images, and of images that are kept */
     uint64_t contents_frame;         /* the newest frame in which they were recorded */
     virga_bindings *fill_bindings;   /* of the pass that fills buffers; NULL: there are none to fill */
@@ -454,6 +455,9 @@ static inline void *virga_effect_copy(const virga_effect *effect, size_t member,
 virga_result virga_effect_create(virga_context *context, const virga_effect_type *type, const char *call,
                                  const void *def, void **object);
 void virga_effect_destroy(virga_effect *effect); /* accepts NULL */
+
+/* The same for the public functions: a part of a scene is not destroyed, which is logged. */
+void virga_effect_destroy_by_host(virga_effect *effect, const char *call);
 
 /* Fill a definition or settings with the defaults. */
 void virga_effect_default_def(const virga_effect_type *type, void *def);

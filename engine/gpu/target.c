@@ -274,6 +274,7 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         virga_free(&context->heap, made);
         return result;
     }
+    virga_context_join(context);
     made->next_target = context->first_target;
     context->first_target = made;
     *target = made;
@@ -290,10 +291,12 @@ void virga_target_destroy(virga_target **target)
         at = &(*at)->next_target;
     *at = (*target)->next_target;
     (*target)->class_of->targets--;
+    virga_target_class_use((*target)->class_of); /* an effect that leaves it must not free it yet */
     virga_effects_forget_target(*target);
-    free_unused(context, (*target)->class_of);
+    virga_target_class_leave(context, (*target)->class_of);
     virga_free(&context->heap, *target);
     *target = NULL;
+    virga_context_leave(context);
 }
 
 virga_target_outputs virga_target_outputs_of(const virga_target *target)

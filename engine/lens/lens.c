@@ -258,7 +258,7 @@ void virga_lens_picture_view(virga_lens *lens, virga_prepared prepared, virga_le
 
 double virga_lens_breathing(double focal_m, double focus_m)
 {
-    return focus_m > focal_m && focal_m > 0 ? focus_m / (focus_m - focal_m) : 1;
+    return focus_m > focal_m && focal_m > 0 && isfinite(focus_m) ? focus_m / (focus_m - focal_m) : 1;
 }
 
 void virga_lens_fill_view(virga_lens *lens, virga_view *view)

@@ -30,7 +30,8 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
     if (!(pane->width_m > 0 && pane->width_m <= 100 && pane->height_m > 0 && pane->height_m <= 100))
         return virga_wrong_argument(log, "rain_pane: expected a width and height of up to 100 m, got %g x %g",
                                     (double)pane->width_m, (double)pane->height_m);
-    if (rain->hits_frame == rain->base.context->frame_index && rain->hits_panes >= rain->def.max_panes)
+    const uint32_t found = rain->hits_frame == rain->base.context->frame_index ? rain->hits_panes : 0;
+    if (found >= rain->def.max_panes)
         return virga_wrong_argument(log, "virga_rain_find_hits: more than rain_def.max_panes = %u in a frame",
                                     rain->def.max_panes);
     return virga_effect_ready(&rain->base);

@@ -188,11 +188,11 @@ static virga_result check_recording(const virga_rain *rain, const double camera_
 virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
                                        const virga_occluder *occluders, uint32_t count)
 {
+    if (rain && (!cmd || !camera_m || (count && !occluders)))
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_draw_occlusion: NULL argument");
     virga_result result = check_recording(rain, camera_m);
     if (result)
         return result;
-    if (!cmd || !camera_m || (count && !occluders))
-        return virga_wrong_argument(&rain->base.context->log, "virga_rain_draw_occlusion: NULL argument");
     result = virga_mesh_map_check(rain->base.context, rain->map, occluders, count);
     if (!result)
         result = virga_effect_ready(&rain->base);
@@ -264,13 +264,18 @@ uint32_t virga_rain_plan_occlusion(virga_rain *rain, const double camera_m[3], v
 
 virga_result virga_rain_import_occlusion(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth)
 {
+    if (rain && (!cmd || !depth))
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_import_occlusion: NULL argument");
     const virga_result result = check_recording(rain, NULL);
     if (result)
         return result;
     const uint32_t count = planned_count(rain);
-    if (!cmd || !depth || !depth->view || depth->extent.width != depth->extent.height || depth->layers < count)
+    if (!depth->view || depth->extent.width != depth->extent.height || depth->layers < count)
         return virga_wrong_argument(&rain->base.context->log,
                                     "virga_rain_import_occlusion: expected a square image with %u layers", count);
+    const virga_result ready = virga_effect_ready(&rain->base);
+    if (ready)
+        return ready;
     rain_begin_frame(rain, cmd);
     rain->map_count = count;
     rain->host_maps = true;

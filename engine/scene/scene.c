@@ -95,8 +95,10 @@ static virga_result create_effect(virga_scene *scene, const virga_scene_def *def
     define_effect(def, kind, index, effect_def);
     const virga_result result =
         virga_effect_create(scene->context, kind->type, "virga_scene_create", effect_def, &made);
-    if (result >= 0)
-        scene->effects[scene->effect_count++] = (scene_effect){kind, index, made};
+    if (result < 0)
+        return result;
+    scene->effects[scene->effect_count++] = (scene_effect){kind, index, made};
+    scene->effects[scene->effect_count - 1].effect->of_scene = true;
     return result;
 }
 
@@ -155,6 +157,8 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
         *scene = NULL;
     if (!context || !def || !scene)
         return virga_wrong_argument(context ? &context->log : NULL, "virga_scene_create: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = check_def(&context->log, def);
     if (result)
         return result;
@@ -162,6 +166,7 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
     if (!made)
         return virga_out_of_host_memory(context, "a scene");
     made->context = context;
+    virga_context_join(context);
     made->catching_panes = def->rain.max_panes;
     made->max_views = def->max_views;
     result = create_effects(made, def);
@@ -176,10 +181,12 @@ void virga_scene_destroy(virga_scene **scene)
 {
     if (!scene || !*scene)
         return;
+    virga_context *context = (*scene)->context;
     for (uint32_t i = (*scene)->effect_count; i-- > 0;)
         virga_effect_destroy((*scene)->effects[i].effect);
-    virga_free(&(*scene)->context->heap, *scene);
+    virga_free(&context->heap, *scene);
     *scene = NULL;
+    virga_context_leave(context);
 }
 
 /* ---- access to the effects, for their own functions */

@@ -248,7 +248,7 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
 {
     if (!water)
         return VIRGA_ERROR_INVALID;
-    if (target && !water->def.max_width) /* it is never drawn */
+    if (target && target->context == water->base.context && !water->def.max_width) /* it is never drawn */
         return VIRGA_OK;
     return virga_effect_attach(&water->base, "virga_water_attach", target);
 }

@@ -93,7 +93,7 @@ typedef enum virga_log_id {
     VIRGA_LOG_DEVICE_LOST = 7,      /* logged once per context */
     VIRGA_LOG_HOST_MEMORY = 8,      /* the host allocator failed: how many bytes, and what for */
     VIRGA_LOG_DEVICE_MEMORY = 9,    /* a device allocation failed: how many bytes, and what for */
-    VIRGA_LOG_LIVE_OBJECTS = 10,    /* a context was destroyed before effects that were made from it */
+    VIRGA_LOG_LIVE_OBJECTS = 10,    /* a context was destroyed before objects that were made from it */
     VIRGA_LOG_CREATED = 11,         /* an object was created: what, and how much memory it takes */
     VIRGA_LOG_PIPELINE_CACHE = 12,  /* a pipeline cache blob does not fit this driver and is ignored */
     VIRGA_LOG_FRAME_ORDER = 13,     /* frame indices or ticks went backwards, or completed_index passed frame_index */

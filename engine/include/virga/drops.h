@@ -47,8 +47,8 @@ VIRGA_API double virga_drop_axis_ratio(double diameter_m);
  * [1e-6; 0.01] m. 122 Hz at 2 mm. */
 VIRGA_API double virga_drop_oscillation_hz(double diameter_m);
 
-/* Returns the volume (m^3) of a sphere of that diameter. The diameter of a drop is always that of the sphere with the
- * same volume. 0 for negative diameters. */
+/* Returns the volume (m^3) of a sphere of that diameter, [0; 1] m. The diameter of a drop is always that of the sphere
+ * with the same volume. */
 VIRGA_API double virga_drop_volume(double diameter_m);
 
 /* Returns how a drop scatters light: outgoing radiance per irradiance on the drop's cross-section (1/sr).
@@ -104,7 +104,7 @@ VIRGA_API virga_result virga_sizes_densities(const virga_sizes *sizes, double ra
 VIRGA_API double virga_sizes_landing_share(const virga_sizes *sizes, double rate_mm_h, double air_density,
                                            double diameter_m);
 
-/* Returns the extinction (1/m) of light by rain of that rate: 0.312 R^0.67 per km. 0 for negative rates. */
+/* Returns the extinction (1/m) of light by rain of that rate [0; 1e6] mm/h: 0.312 R^0.67 per km. */
 VIRGA_API double virga_rain_extinction(double rate_mm_h);
 
 #ifdef __cplusplus

@@ -30,6 +30,13 @@
  * viewport 0 and scissor 0, and the line width where the context has wide_lines. Nothing else, e.g. no stencil
  * reference, depth bias or blend constants. Nothing is put back: the host sets what it needs again.
  *
+ * Handles. Objects are made from a context and belong to it. An object of another context is refused. NULL is accepted
+ * by destroy functions, and refused by all others that return a result. A destroy function sets the handle that it is
+ * given to NULL. A copy of that handle is not known to the library: to use it afterwards is undefined, as with free().
+ * Objects may be destroyed in any order, also while frames use them. Parts of a scene belong to the scene: to destroy
+ * one logs a line, and only sets the handle to NULL. Calls may come in any order; one that comes too early is refused,
+ * or returns VIRGA_NOT_READY. Handles of Vulkan (command buffers, buffers, images) are not checked.
+ *
  * Thread-safety: calls on one context, and on objects made from it, must not overlap. Different contexts may be used
  * from different threads at the same time, also on the same device.
  */
@@ -205,9 +212,10 @@ VIRGA_API virga_context_def virga_default_context_def(void);
  * Errors: INVALID, UNSUPPORTED, HOST_MEMORY, DEVICE_MEMORY, VULKAN, DEVICE_LOST. *context is NULL then. */
 VIRGA_API virga_result virga_context_create(const virga_context_def *def, virga_context **context);
 
-/* Destroys the context and sets *context to NULL. Accepts NULL and a pointer to NULL. All effects made from it must
- * have been destroyed before (else it logs VIRGA_LOG_LIVE_OBJECTS). The device must have completed all work that was
- * recorded with the context. */
+/* Destroys the context and sets *context to NULL. Accepts NULL and a pointer to NULL. The device must have completed
+ * all work that was recorded with the context. All effects, scenes and targets made from it should have been destroyed
+ * before. Otherwise it logs VIRGA_LOG_LIVE_OBJECTS, and the context ends with the last of them, which the VkDevice must
+ * outlive. Until then calls on them return VIRGA_ERROR_DEVICE_LOST. */
 VIRGA_API void virga_context_destroy(virga_context **context);
 
 /* Begins a frame. Frees what completed frames used, and reads back their timings and statistics. Costs microseconds.

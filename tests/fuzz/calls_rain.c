@@ -1,0 +1,316 @@
+/* calls_rain.c - random calls of the functions that only rain, ground and splashes have. */
+#include "calls.h"
+#include "calls_list.h"
+
+static void fill_camera(calls *c, double camera_m[3])
+{
+    calls_doubles(c, camera_m, 3, -3, 3);
+    if (calls_once_in(c, 2))
+        memset(camera_m, 0, 3 * sizeof *camera_m);
+}
+
+/* ---- rain */
+
+void call_virga_rain_draw_occlusion(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_occluder occluders[2];
+    double camera[3];
+    VkCommandBuffer cmd;
+    const uint32_t count = calls_fill_occluders(c, occluders, 2);
+    const bool none = count && calls_once_in(c, 10);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (none ? CALLS_WRONG : 0));
+    fill_camera(c, camera);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_draw_occlusion, h.object, cmd, camera, none ? NULL : occluders,
+                  count);
+}
+
+void call_virga_rain_plan_occlusion(calls *c)
+{
+    virga_occlusion_view views[VIRGA_RAIN_MAX_MAPS];
+    double camera[3];
+    fill_camera(c, camera);
+    c->made++;
+    if (virga_rain_plan_occlusion(calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 10) ? NULL : camera,
+                                  calls_once_in(c, 10) ? NULL : views) > VIRGA_RAIN_MAX_MAPS)
+        calls_wrong(c, __func__, "more maps than there may be");
+}
+
+void call_virga_rain_import_occlusion(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_image image;
+    VkCommandBuffer cmd;
+    uint32_t flags = calls_of(h.object, CALLS_OUTSIDE);
+    calls_fill_image(c, VK_FORMAT_D32_SFLOAT, &image);
+    if (c->device->honest)
+        return; /* an array of as many maps as were planned, which the device has not */
+    image.extent = (VkExtent3D){calls_below(c, 3) * 32, 32, 1};
+    image.layers = calls_below(c, 13);
+    const bool wrong = calls_once_in(c, 12);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags | (wrong ? CALLS_WRONG : 0), virga_rain_import_occlusion, h.object, cmd,
+                  wrong ? NULL : &image);
+}
+
+void call_virga_rain_occlusion_map_get(calls *c)
+{
+    virga_rain_occlusion_map map;
+    CALLS_DO(c, virga_rain_occlusion_map_get, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &map);
+}
+
+void call_virga_rain_step(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_rain_step_info info = {.dt_s = calls_number(c, 0, 0.05)};
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    fill_camera(c, info.camera_m);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_step, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_rain_time(calls *c)
+{
+    c->made++;
+    if (!isfinite(virga_rain_time(calls_pick(c, CALLS_RAIN).object)))
+        calls_wrong(c, __func__, "is no number");
+}
+
+void call_virga_rain_ticks(calls *c)
+{
+    uint32_t first, count;
+    CALLS_DO(c, virga_rain_ticks, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &first,
+             calls_once_in(c, 8) ? NULL : &count);
+}
+
+void call_virga_rain_wind(calls *c)
+{
+    float wind[3];
+    CALLS_DO(c, virga_rain_wind, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : wind);
+}
+
+void call_virga_rain_rainfall_get(calls *c)
+{
+    virga_rainfall fall;
+    CALLS_DO(c, virga_rain_rainfall_get, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &fall);
+}
+
+void call_virga_rain_prepare(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_view view;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    const double time_s = calls_once_in(c, 3) ? calls_number(c, 0, 10) : virga_rain_time(h.object);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_prepare, h.object, cmd, wrong ? NULL : &view, time_s);
+}
+
+void call_virga_rain_draw_haze(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN), target = calls_pick(c, CALLS_TARGET);
+    virga_view view;
+    double plane[4];
+    VkCommandBuffer cmd;
+    const bool wrong = !target.object || target.context != h.context;
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_INSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    calls_doubles(c, plane, 4, -1, 1);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_draw_haze, h.object, cmd, calls_once_in(c, 20) ? NULL : &view,
+                  calls_once_in(c, 2) ? NULL : plane, target.object);
+}
+
+void call_virga_rain_impacts(calls *c)
+{
+    virga_rain_buffer buffer;
+    CALLS_DO(c, virga_rain_impacts, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &buffer);
+}
+
+void call_virga_rain_find_hits(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_rain_pane pane = {.along_u = {1, 0, 0}, .along_v = {0, 1, 0}, .width_m = 1, .height_m = 1};
+    virga_rain_buffer hits;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    CALLS_WILD_ALL(c, &pane);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_find_hits, h.object, cmd, wrong ? NULL : &pane, &hits);
+}
+
+void call_virga_rain_drops(calls *c)
+{
+    virga_rain_buffer drops;
+    uint32_t count;
+    double origin[3];
+    CALLS_DO(c, virga_rain_drops, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &drops,
+             calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : origin);
+}
+
+void call_virga_rain_write_points(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_RAIN);
+    virga_rain_buffer points;
+    uint32_t count;
+    double origin[3];
+    VkCommandBuffer cmd;
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_rain_write_points, h.object, cmd, calls_once_in(c, 8) ? NULL : &points,
+                  calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : origin);
+}
+
+/* ---- ground */
+
+/* The impacts of the rain that the step stands beside; where handles are not checked, anything. */
+static void fill_events(calls *c, uint32_t context, virga_ground_step_info *info)
+{
+    const calls_handle rain = calls_pick(c, CALLS_RAIN);
+    virga_rain_buffer impacts = {0};
+    if (rain.object && rain.context == context)
+        virga_rain_impacts(rain.object, &impacts);
+    info->impacts = impacts.buffer;
+    info->impacts_offset = impacts.offset;
+    info->impacts_size = impacts.size;
+    if (c->device->honest)
+        return;
+    info->impacts = calls_once_in(c, 3) ? c->device->buffer(c) : info->impacts;
+    info->splash_rules = calls_once_in(c, 2) ? c->device->buffer(c) : VK_NULL_HANDLE;
+    info->returned_droplets = calls_once_in(c, 2) ? c->device->buffer(c) : VK_NULL_HANDLE;
+}
+
+void call_virga_ground_step(calls *c)
+{
+    static const calls_member kept[] = {
+        CALLS_KEPT(virga_ground_step_info, meshes),       CALLS_KEPT(virga_ground_step_info, mesh_count),
+        CALLS_KEPT(virga_ground_step_info, materials),    CALLS_KEPT(virga_ground_step_info, impacts),
+        CALLS_KEPT(virga_ground_step_info, splash_rules), CALLS_KEPT(virga_ground_step_info, returned_droplets)};
+    const calls_handle h = calls_pick(c, CALLS_GROUND), rain = calls_pick(c, CALLS_RAIN);
+    virga_occluder meshes[2];
+    VkCommandBuffer cmd;
+    virga_ground_step_info info = {.mesh_count = calls_fill_occluders(c, meshes, 2), .meshes = meshes};
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    fill_camera(c, info.camera_m);
+    fill_camera(c, info.ripple_center_m);
+    virga_rain_ticks(rain.object, &info.first_tick, &info.ticks);
+    if (!rain.object)
+        info.first_tick = info.ticks = 0;
+    fill_events(c, h.context, &info);
+    if (!c->device->honest) {
+        calls_fill_image(c, VK_FORMAT_R8_UINT, &info.materials.image);
+        calls_doubles(c, info.materials.high_m, 2, 0, 10);
+        CALLS_WILD(c, &info, kept);
+        if (calls_once_in(c, 12))
+            info.meshes = NULL;
+    }
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_ground_step, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_ground_refresh_heights(calls *c)
+{
+    CALLS_DO(c, virga_ground_refresh_heights, calls_pick(c, CALLS_GROUND).object);
+}
+
+void call_virga_ground_maps_get(calls *c)
+{
+    virga_ground_maps maps;
+    CALLS_DO(c, virga_ground_maps_get, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &maps);
+}
+
+void call_virga_ground_cells_get(calls *c)
+{
+    virga_ground_cells cells;
+    CALLS_DO(c, virga_ground_cells_get, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &cells);
+}
+
+#define GROUND_LIST(name)                                                                                          \
+    void call_virga_ground_##name(calls *c)                                                                        \
+    {                                                                                                              \
+        VkBuffer buffer;                                                                                           \
+        VkDeviceSize size;                                                                                         \
+        CALLS_DO(c, virga_ground_##name, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &buffer, \
+                 calls_once_in(c, 8) ? NULL : &size);                                                              \
+    }
+GROUND_LIST(landings)
+GROUND_LIST(spawns)
+
+/* ---- splashes */
+
+void call_virga_splash_step(calls *c)
+{
+    static const calls_member kept[] = {CALLS_KEPT(virga_splash_step_info, spawns)};
+    const calls_handle h = calls_pick(c, CALLS_SPLASH), rain = calls_pick(c, CALLS_RAIN),
+                       ground = calls_pick(c, CALLS_GROUND);
+    virga_splash_step_info info = {.wind_m_s = {1, 0, 0}};
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    fill_camera(c, info.camera_m);
+    if (ground.context == h.context && ground.object)
+        virga_ground_spawns(ground.object, &info.spawns, &info.spawns_size);
+    virga_rain_ticks(rain.object, &info.first_tick, &info.ticks);
+    if (!rain.object)
+        info.first_tick = info.ticks = 0;
+    if (!c->device->honest) {
+        info.spawns = calls_once_in(c, 3) ? c->device->buffer(c) : info.spawns;
+        CALLS_WILD(c, &info, kept);
+    }
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_splash_step, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_splash_prepare(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_SPLASH);
+    virga_view view;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_splash_prepare, h.object, cmd, wrong ? NULL : &view,
+                  calls_number(c, 0, 4));
+}
+
+void call_virga_splash_time(calls *c)
+{
+    c->made++;
+    if (!isfinite(virga_splash_time(calls_pick(c, CALLS_SPLASH).object)))
+        calls_wrong(c, __func__, "is no number");
+}
+
+void call_virga_splash_rules(calls *c)
+{
+    virga_splash_buffer rules;
+    CALLS_DO(c, virga_splash_rules, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &rules);
+}
+
+void call_virga_splash_returned_droplets(calls *c)
+{
+    virga_splash_buffer list;
+    CALLS_DO(c, virga_splash_returned_droplets, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &list);
+}
+
+void call_virga_splash_droplets(calls *c)
+{
+    virga_splash_buffer droplets;
+    uint32_t count;
+    double anchor[3];
+    CALLS_DO(c, virga_splash_droplets, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &droplets,
+             calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : anchor);
+}
+
+void call_virga_splash_handed(calls *c)
+{
+    virga_splash_buffer handed;
+    CALLS_DO(c, virga_splash_handed, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &handed);
+}

@@ -1,0 +1,161 @@
+/* calls_water.c - random calls of the functions that only water, the solver and the lens have. */
+#include "calls.h"
+#include "calls_list.h"
+
+/* ---- water */
+
+static void fill_water_step(calls *c, virga_water_step_info *info)
+{
+    static const calls_member kept[] = {CALLS_KEPT(virga_water_step_info, particles),
+                                        CALLS_BOOL(virga_water_step_info, sub_frame)};
+    *info = (virga_water_step_info){.particles = calls_once_in(c, 6) ? VK_NULL_HANDLE : c->device->buffer(c),
+                                    .count = calls_below(c, 200),
+                                    .time_s = calls_number(c, 0, 10)};
+    if (!c->device->honest)
+        CALLS_WILD(c, info, kept);
+}
+
+void call_virga_water_step(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER);
+    virga_water_step_info info;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    fill_water_step(c, &info);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_step, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_water_environment(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER);
+    virga_image image;
+    calls_fill_image(c, VK_FORMAT_R16G16B16A16_SFLOAT, &image);
+    CALLS_TRY(c, h.context, calls_of(h.object, CALLS_PLAIN), virga_water_environment, h.object,
+              calls_once_in(c, 4) ? NULL : &image);
+}
+
+void call_virga_water_prepare(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER);
+    virga_view view;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_prepare, h.object, cmd, wrong ? NULL : &view);
+}
+
+void call_virga_water_surfels(calls *c)
+{
+    virga_water_buffer surfels;
+    double origin[3];
+    CALLS_DO(c, virga_water_surfels, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &surfels,
+             calls_once_in(c, 8) ? NULL : origin);
+}
+
+void call_virga_water_spray(calls *c)
+{
+    virga_water_buffer spray;
+    double origin[3];
+    CALLS_DO(c, virga_water_spray, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &spray,
+             calls_once_in(c, 8) ? NULL : origin);
+}
+
+void call_virga_water_densities(calls *c)
+{
+    virga_water_buffer densities;
+    CALLS_DO(c, virga_water_densities, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &densities);
+}
+
+void call_virga_water_leavers_get(calls *c)
+{
+    virga_water_leavers leavers;
+    CALLS_DO(c, virga_water_leavers_get, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &leavers);
+}
+
+/* ---- the solver */
+
+void call_virga_fluid_add(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_FLUID);
+    virga_fluid_block block = {.low_m = {0.1f, 0.1f, 0.1f}, .high_m = {0.2f, 0.2f, 0.2f}};
+    const bool wrong = calls_once_in(c, 20);
+    CALLS_WILD_ALL(c, &block);
+    CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_fluid_add, h.object,
+              wrong ? NULL : &block);
+}
+
+void call_virga_fluid_clear(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_FLUID);
+    CALLS_TRY(c, h.context, calls_of(h.object, CALLS_PLAIN), virga_fluid_clear, h.object);
+}
+
+void call_virga_fluid_step(calls *c)
+{
+    static const calls_member kept[] = {CALLS_KEPT(virga_fluid_step_info, particles)};
+    const calls_handle h = calls_pick(c, CALLS_FLUID);
+    virga_fluid_step_info info = {.dt_s = 0.01f};
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    if (calls_once_in(c, 3)) {
+        info.particles = c->device->buffer(c);
+        info.count = calls_below(c, 200);
+    }
+    if (!c->device->honest)
+        CALLS_WILD(c, &info, kept);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_fluid_step, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_fluid_particles(calls *c)
+{
+    virga_fluid_buffer particles;
+    uint32_t count;
+    CALLS_DO(c, virga_fluid_particles, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &particles,
+             calls_once_in(c, 8) ? NULL : &count);
+}
+
+void call_virga_fluid_pressures(calls *c)
+{
+    virga_fluid_buffer pressures;
+    CALLS_DO(c, virga_fluid_pressures, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &pressures);
+}
+
+/* ---- the lens */
+
+void call_virga_lens_prepare(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_LENS);
+    virga_view view;
+    virga_lens_layer layers[2] = {0};
+    VkCommandBuffer cmd;
+    const uint32_t count = calls_below(c, 3);
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    for (uint32_t i = 0; i < count; i++) {
+        calls_fill_image(c, VK_FORMAT_R16G16B16A16_SFLOAT, &layers[i].color);
+        calls_fill_image(c, VK_FORMAT_D32_SFLOAT, &layers[i].depth);
+        calls_floats(c, &layers[i].depth_m, 1, 0, 100);
+    }
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_lens_prepare, h.object, cmd, wrong ? NULL : &view,
+                  calls_once_in(c, 12) ? NULL : layers, count, calls_number(c, 0, 10));
+}
+
+void call_virga_lens_picture(calls *c)
+{
+    virga_lens_image picture;
+    CALLS_DO(c, virga_lens_picture, calls_pick(c, CALLS_LENS).object, calls_once_in(c, 8) ? NULL : &picture);
+}
+
+void call_virga_lens_fill_view(calls *c)
+{
+    virga_view view = virga_default_view();
+    CALLS_DO(c, virga_lens_fill_view, calls_pick(c, CALLS_LENS).object, calls_once_in(c, 8) ? NULL : &view);
+}
