@@ -75,6 +75,7 @@ typedef struct calls {
     bool lost[CALLS_CONTEXTS + 1];
     calls_handle handles[CALLS_TYPES][CALLS_SLOTS];
     calls_frames frames[CALLS_CONTEXTS + 1];
+    virga_prepared prepared[CALLS_TYPES]; /* the newest view */
 
     uint64_t made, lines; /* calls made; log lines since calls_before */
     uint32_t results[9];  /* how often each virga_result came: errors by -result, then NOT_READY and DEGRADED */

@@ -118,7 +118,7 @@ void calls_fill_target_def(calls *c, virga_target_def *out)
         out->color_formats[1] = out->color_formats[2] = VK_FORMAT_R16G16_SFLOAT;
     }
     KEEP(CALLS_KEPT(virga_target_def, render_pass), CALLS_BOOL(virga_target_def, depth_attached),
-         CALLS_BOOL(virga_target_def, reversed_depth));
+         CALLS_BOOL(virga_target_def, depth_written), CALLS_BOOL(virga_target_def, reversed_depth));
 }
 
 /* ---- definitions */
