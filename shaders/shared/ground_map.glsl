@@ -71,26 +71,53 @@ float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at
     return mix(near, float(bits) / 64.0, clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
 }
 
-// The ground at a position. `height_m` is its height above the maps' base_m. The foot of a wall, a car or a bridge does
-// not become wet because the ground below it is wet.
+// Ground that is steeper than this is a step from one surface to another.
+const float virga_ground_steepest = 1.2;
+
+// The change of height per cell, along x and z, between the four cells around a position; `t` is where it is among
+// them. 0 along an axis on which they belong to different surfaces, or some of them are no ground.
+vec2 virga_ground_slope(vec4 heights, vec2 t, float cell_m)
+{
+    const vec2 rise_x = vec2(heights.y - heights.x, heights.w - heights.z);
+    const vec2 rise_z = vec2(heights.z - heights.x, heights.w - heights.y);
+    const float most = virga_ground_steepest * cell_m;
+    return vec2(max(abs(rise_x.x), abs(rise_x.y)) <= most ? mix(rise_x.x, rise_x.y, t.y) : 0.0,
+                max(abs(rise_z.x), abs(rise_z.y)) <= most ? mix(rise_z.x, rise_z.y, t.x) : 0.0);
+}
+
+// 1 if a cell and a position belong to one surface, else 0: their heights are alike, or the slope explains by how much
+// they differ. `off` leads from the middle of the cell to the position, in cells.
+float virga_ground_same(float cell_height_m, float height_m, vec2 slope, vec2 off)
+{
+    const float apart = height_m - cell_height_m;
+    return float(min(abs(apart), abs(apart - dot(slope, off))) < 0.2);
+}
+
+// The ground at a position. `height_m` is its height above the maps' base_m; `cell_m` is the maps' cell_m. The foot of
+// a wall, a car or a bridge does not become wet because the ground below it is wet.
 virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ivec2 low_cell, int cells, vec2 at,
-                                     float height_m, float pixel_cells)
+                                     float height_m, float pixel_cells, float cell_m)
 {
     virga_ground_wetness found = virga_ground_wetness(0.0, 0.0, 0.0, 0.0);
     const vec2 middle = at - 0.5;
     const ivec2 low = ivec2(floor(middle));
     const vec2 t = middle - vec2(low);
-    vec3 sum = vec3(0.0);
+    vec4 texels[4], heights;
     for (int i = 0; i < 4; i++) {
-        const ivec2 corner = ivec2(i & 1, i >> 1);
-        const vec4 texel = virga_ground_texel(wet_map, low_cell, cells, low + corner);
-        const vec2 share = mix(1.0 - t, t, vec2(corner));
-        const float same = float(abs(texel.a - height_m) < 0.2);
-        sum += texel.xyz * (share.x * share.y * same);
+        texels[i] = virga_ground_texel(wet_map, low_cell, cells, low + ivec2(i & 1, i >> 1));
+        heights[i] = texels[i].a;
+    }
+    const vec2 slope = virga_ground_slope(heights, t, cell_m);
+    vec3 sum = vec3(0.0);
+    float own = 0.0;
+    for (int i = 0; i < 4; i++) {
+        const vec2 corner = vec2(i & 1, i >> 1), share = mix(1.0 - t, t, corner);
+        const float same = virga_ground_same(heights[i], height_m, slope, t - corner);
+        sum += texels[i].xyz * (share.x * share.y * same);
+        own = corner == step(vec2(0.5), t) ? same : own;
     }
     const bool inside = min(low.x, low.y) >= 0 && max(low.x, low.y) < cells - 1;
     if (inside) {
-        const float own = float(abs(virga_ground_texel(wet_map, low_cell, cells, ivec2(floor(at))).a - height_m) < 0.2);
         found = virga_ground_wetness(sum.x, sum.y, sum.z,
                                      own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells));
     }
@@ -147,20 +174,25 @@ virga_ground_wetness virga_ground_open(sampler2D far_map, int far_cells, uint ma
     return virga_ground_wetness(texel.x, texel.y, max(texel.z, 0.0), max(-texel.z, 0.0));
 }
 
-// The ground at a position outside the window, as virga_ground_at. `open` is used where this map ends.
+// The ground at a position outside the window, as virga_ground_at. `open` is used where this map ends. `far_cell_m` is
+// the maps' far_cell_m.
 virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 far_at, float height_m,
-                                         virga_ground_wetness open)
+                                         virga_ground_wetness open, float far_cell_m)
 {
     const vec2 middle = far_at - 0.5;
     const ivec2 last = ivec2(max(far_cells - 1, 0)), low = clamp(ivec2(floor(middle)), ivec2(0), max(last - 1, 0));
     const vec2 t = clamp(middle - vec2(low), 0.0, 1.0);
-    vec4 sum = vec4(0.0);
+    vec4 texels[4], heights, sum = vec4(0.0);
+    for (int i = 0; i < 4; i++) {
+        texels[i] = texelFetch(far_map, min(low + ivec2(i & 1, i >> 1), last), 0); // valid, also if there is one row
+        heights[i] = texels[i].a;
+    }
+    const vec2 slope = virga_ground_slope(heights, t, far_cell_m);
     float found = 1e-6;
     for (int i = 0; i < 4; i++) {
-        const ivec2 corner = ivec2(i & 1, i >> 1);
-        const vec4 texel = texelFetch(far_map, min(low + corner, last), 0); // valid, also if the map has a single row
-        const vec2 side = mix(1.0 - t, t, vec2(corner));
-        const float share = side.x * side.y * float(abs(texel.a - height_m) < 0.2);
+        const vec2 corner = vec2(i & 1, i >> 1), side = mix(1.0 - t, t, corner);
+        const vec4 texel = texels[i];
+        const float share = side.x * side.y * virga_ground_same(texel.a, height_m, slope, t - corner);
         sum += vec4(texel.xy, max(texel.z, 0.0), max(-texel.z, 0.0)) * share;
         found += share;
     }

@@ -24,7 +24,8 @@ void main()
     if (street.wetted > 0.0 && in_normal.y > 0.5) {
         const vec2 at = (in_position.xz - street.low_m) / street.cell_m;
         const virga_ground_wetness ground = virga_ground_at(wet_map, spot_map, street.low_cell, street.cells, at,
-                                                            in_position.y - street.base_m, 1.0);
+                                                            in_position.y - street.base_m, 1.0,
+                                                            street.cell_m);
         const float wet = max(ground.wet, ground.spot);
         color *= mix(1.0, 0.5, wet);
         color = mix(color, vec3(0.3, 0.32, 0.35), 0.3 * smoothstep(0.05, 1.5, ground.depth_mm));

@@ -94,7 +94,7 @@ virga_ground_wetness water_at(vec2 at, float pixel)
     float height_m = in_relative.y - frame.ground_low.y, reach = frame.ground_wrap.w;
     virga_ground_wetness near =
         virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy), max(int(frame.ground_wrap.z), 1), at, height_m,
-                        pixel);
+                        pixel, 1.0 / max(frame.ground_low.w, 1e-6));
     float share = virga_ground_near_share(in_relative.xz * frame.ground_low.w, reach);
     if (share >= 1.0)
         return near;
@@ -103,7 +103,9 @@ virga_ground_wetness water_at(vec2 at, float pixel)
     if (surface.traits.w > 0.0)
         open = virga_ground_open(far_map, cells, uint(surface.traits.w) - 1u);
     vec2 far_at = (in_relative.xz - frame.ground_far.xz) * frame.ground_far.y;
-    return virga_ground_mix(virga_ground_far_at(far_map, cells, far_at, height_m, open), near, share);
+    return virga_ground_mix(virga_ground_far_at(far_map, cells, far_at, height_m, open,
+                                                1.0 / max(frame.ground_far.y, 1e-6)),
+                            near, share);
 }
 
 // Lamps: Lambert, and GGX with the visibility of Hammon 2017.

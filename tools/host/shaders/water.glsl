@@ -53,7 +53,7 @@ virga_ground_wetness far_water(vec3 relative, float height_m)
     if (material >= 0)
         open = virga_ground_open(far_map, cells, uint(material));
     const vec2 at = (relative.xz - frame.ground_far.xz) * frame.ground_far.y;
-    return virga_ground_far_at(far_map, cells, at, height_m, open);
+    return virga_ground_far_at(far_map, cells, at, height_m, open, 1.0 / max(frame.ground_far.y, 1e-6));
 }
 
 Water water_at(vec3 relative, vec3 n)
@@ -63,7 +63,8 @@ Water water_at(vec3 relative, vec3 n)
     const float pixel = max(length(dFdx(at)), length(dFdy(at)));
     const float height_m = relative.y - frame.ground_low.y;
     virga_ground_wetness wet = virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy),
-                                               max(int(frame.ground_wrap.z), 1), at, height_m, pixel);
+                                               max(int(frame.ground_wrap.z), 1), at, height_m, pixel,
+                                               1.0 / max(inv_cell, 1e-6));
     const float near = virga_ground_near_share(relative.xz * inv_cell, frame.ground_wrap.w);
     if (frame.ground_far.y > 0.0 && near < 1.0)
         wet = virga_ground_mix(far_water(relative, height_m), wet, near);
