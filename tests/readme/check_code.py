@@ -35,7 +35,7 @@ def check_block(page, block):
 
 for page in pages.names(root):
     text = pages.read(root, page)
-    for block in pages.blocks(text, "c") + pages.blocks(text, "glsl"):
+    for block in pages.blocks(text, "c") + pages.blocks(text, "glsl") + pages.blocks(text, "cpp"):
         check_block(page, block)
 
 # The functions that hold the page's blocks, and their calls.
