@@ -267,17 +267,20 @@ static uint32_t ticks_of_frame(const virga_rain *rain)
 
 /* The number of whole ticks in the host's time. The rest is left for the next step, or dropped if a step may not run
  * that many ticks. */
-static uint32_t whole_ticks(virga_rain *rain, double dt_s, bool *dropped)
+static uint32_t whole_ticks(virga_rain *rain, const virga_rain_step_info *info, bool *dropped)
 {
-    const uint32_t left = rain->def.max_ticks_per_step - ticks_of_frame(rain);
-    rain->left_over_s += dt_s;
+    const bool limited = info->max_ticks && info->max_ticks < rain->def.max_ticks_per_step;
+    const uint32_t max = limited ? info->max_ticks : rain->def.max_ticks_per_step, run = ticks_of_frame(rain);
+    const uint32_t left = max > run ? max - run : 0;
+    rain->left_over_s += info->dt_s;
     /* Ticks that are short only by rounding count. Otherwise 1/24 s with ticks of 1/48 s would run 1, 2, 3, 2, ... */
     double whole = floor(rain->left_over_s / rain->def.tick_s + 1e-9);
     if (whole > left) {
+        rain->stats.ticks_dropped += (uint64_t)whole - left;
         whole = left;
         virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
-                        "a step of %g s at ticks of %g s: only %g are run (max_ticks_per_step)", dt_s, rain->def.tick_s,
-                        whole);
+                        "a step of %g s at ticks of %g s: only %g are run (%s)", info->dt_s, rain->def.tick_s, whole,
+                        limited ? "the frame's max_ticks or step_budget_ms" : "max_ticks_per_step");
         rain->left_over_s = whole * rain->def.tick_s;
         *dropped = true;
     }
@@ -331,7 +334,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     /* Passes and copies of the previous frame may still read what this frame writes. */
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
     bool dropped = false;
-    const uint32_t ticks = whole_ticks(rain, info->dt_s, &dropped);
+    const uint32_t ticks = whole_ticks(rain, info, &dropped);
     for (uint32_t i = 0; i < ticks; i++) {
         advance(rain);
         push_tick(rain, i);

@@ -285,6 +285,9 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
         return VIRGA_ERROR_DEVICE_LOST;
     if (!(frame->dt_s >= 0 && frame->dt_s <= 10))
         return virga_wrong_argument(log, "scene_frame.dt_s: expected 0 to 10 s, got %g", frame->dt_s);
+    if (!(frame->step_budget_ms >= 0 && frame->step_budget_ms <= 1000))
+        return virga_wrong_argument(log, "scene_frame.step_budget_ms: expected 0 to 1000, got %g",
+                                    (double)frame->step_budget_ms);
     if (frame->occluder_count && !frame->occluders)
         return virga_wrong_argument(log, "scene_frame.occluders: expected %u, got NULL", frame->occluder_count);
     if (check_positions(log, frame))

@@ -82,13 +82,20 @@ static virga_rain *rain_of(const virga_scene *scene)
 static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_rain *rain = rain_of(scene);
-    virga_rain_step_info step = {.dt_s = frame->dt_s};
+    virga_rain_step_info step = {.dt_s = frame->dt_s, .max_ticks = scene_ticks_in_budget(scene, frame->step_budget_ms)};
     virga_result result = VIRGA_OK;
     (void)index;
     if (frame->occluders)
         result = virga_rain_draw_occlusion(rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
     memcpy(step.camera_m, frame->camera_m, sizeof step.camera_m);
-    return result < 0 ? result : scene_merge_results(result, virga_rain_step(rain, cmd, &step));
+    if (result < 0)
+        return result;
+    const virga_result stepped = virga_rain_step(rain, cmd, &step);
+    uint32_t ticks = 0;
+    virga_rain_ticks(rain, NULL, &ticks);
+    if (stepped >= 0)
+        scene_note_ticks(scene, ticks);
+    return scene_merge_results(result, stepped);
 }
 
 /* ---- ground: impacts come from the rain, rules and returned droplets from the splashes */

@@ -1,6 +1,7 @@
 /* scene/scene_internal.h - a scene as a list of effects, and the table of how they interact. Internal.
  *
  *   scene.c          creates, runs and destroys a scene: every function loops over the table
+ *   scene_budget.c   how many ticks fit into a frame's time budget
  *   scene_effects.c  the table: which effects exist, and the events between them */
 #ifndef VIRGA_SCENE_INTERNAL_H
 #define VIRGA_SCENE_INTERNAL_H
@@ -9,8 +10,10 @@
 
 #include <virga/scene.h>
 
-#define SCENE_MAX_KINDS   16
-#define SCENE_MAX_EFFECTS (SCENE_MAX_KINDS + VIRGA_SCENE_MAX_PANES)
+#define SCENE_MAX_KINDS 16
+/* Times are late by the frames in flight. */
+#define SCENE_KNOWN_FRAMES 16
+#define SCENE_MAX_EFFECTS  (SCENE_MAX_KINDS + VIRGA_SCENE_MAX_PANES)
 
 /* A kind of effect in a scene. The table has one row for each, in the order in which a frame steps them. For a NULL
  * member the default of the effect's type is used. */
@@ -56,7 +59,18 @@ struct virga_scene {
     /* The views of the frame that was recorded last, as each effect has prepared them, by index of the effect. */
     virga_prepared views[VIRGA_MAX_VIEWS][SCENE_MAX_EFFECTS];
     uint32_t view_count, max_views;
+    /* The ticks of the frames in flight, and of a few before them, to know what a tick takes. */
+    struct {
+        uint64_t frame;
+        uint32_t ticks;
+    } ticks_of[SCENE_KNOWN_FRAMES];
 };
+
+/* The ticks that a frame may run with that budget (ms); 0: any number. */
+uint32_t scene_ticks_in_budget(virga_scene *scene, float budget_ms);
+
+/* Remembers how many ticks this frame has run. */
+void scene_note_ticks(virga_scene *scene, uint32_t ticks);
 
 /* Effect number `index` of a type; NULL if the scene has no such effect. */
 void *scene_find(const virga_scene *scene, const virga_effect_type *type, uint32_t index);

@@ -118,6 +118,7 @@ static void fill_context_def(calls *c, uint32_t index, virga_context_def *out)
                                         CALLS_KEPT(virga_context_def, pipeline_cache_size),
                                         CALLS_KEPT(virga_context_def, pipeline_jobs),
                                         CALLS_KEPT(virga_context_def, log_repeats),
+                                        CALLS_BOOL(virga_context_def, strict),
                                         CALLS_BOOL(virga_context_def, wide_lines),
                                         CALLS_BOOL(virga_context_def, timings),
                                         CALLS_BOOL(virga_context_def, debug_names)};

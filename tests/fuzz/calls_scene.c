@@ -130,10 +130,11 @@ void call_virga_scene_record(calls *c)
     static const calls_member kept[] = {
         CALLS_KEPT(virga_scene_frame, occluders),  CALLS_KEPT(virga_scene_frame, occluder_count),
         CALLS_KEPT(virga_scene_frame, materials),  CALLS_KEPT(virga_scene_frame, view),
+        CALLS_KEPT(virga_scene_frame, views),      CALLS_KEPT(virga_scene_frame, view_count),
         CALLS_KEPT(virga_scene_frame, panes),      CALLS_KEPT(virga_scene_frame, water),
         CALLS_BOOL(virga_scene_frame, defer_panes)};
     const calls_handle h = calls_pick(c, CALLS_SCENE);
-    virga_view view;
+    virga_view view, views[2];
     virga_scene_pane panes[2];
     virga_occluder occluders[2];
     VkCommandBuffer cmd;
@@ -143,6 +144,12 @@ void call_virga_scene_record(calls *c)
     fill_panes(c, panes);
     calls_fill_view(c, &view);
     frame.view = calls_once_in(c, 3) ? NULL : &view;
+    if (!frame.view && calls_once_in(c, 2)) {
+        calls_fill_view(c, &views[0]);
+        calls_fill_view(c, &views[1]);
+        frame.views = views;
+        frame.view_count = calls_below(c, 3);
+    }
     frame.panes = calls_once_in(c, 8) ? NULL : panes;
     frame.occluder_count = calls_fill_occluders(c, occluders, 2);
     frame.occluders = calls_once_in(c, 4) && !c->device->honest ? NULL : occluders;
@@ -169,3 +176,28 @@ void call_virga_scene_prepare_panes(calls *c)
     CALLS_TRY(c, h.context, calls_of(h.object, flags), virga_scene_prepare_panes, h.object, cmd, wrong ? NULL : &view,
               panes);
 }
+
+/* ---- presets */
+
+static virga_quality some_quality(calls *c)
+{
+    return (virga_quality)((int)calls_below(c, 6) - 1);
+}
+
+void call_virga_quality_name(calls *c)
+{
+    if (!virga_quality_name(some_quality(c)))
+        calls_wrong(c, __func__, "is NULL");
+}
+
+#define APPLY(name)                                                                                    \
+    void call_virga_##name##_apply_quality(calls *c)                                                   \
+    {                                                                                                  \
+        virga_##name##_def def = virga_default_##name##_def();                                         \
+        CALLS_DO(c, virga_##name##_apply_quality, some_quality(c), calls_once_in(c, 8) ? NULL : &def); \
+    }
+APPLY(rain)
+APPLY(ground)
+APPLY(splash)
+APPLY(glass)
+APPLY(scene)

@@ -117,8 +117,9 @@ void calls_fill_target_def(calls *c, virga_target_def *out)
         out->reactive_attachment = calls_below(c, 3);
         out->color_formats[1] = out->color_formats[2] = VK_FORMAT_R16G16_SFLOAT;
     }
-    KEEP(CALLS_KEPT(virga_target_def, render_pass), CALLS_BOOL(virga_target_def, depth_attached),
-         CALLS_BOOL(virga_target_def, depth_written), CALLS_BOOL(virga_target_def, reversed_depth));
+    KEEP(CALLS_KEPT(virga_target_def, render_pass), CALLS_KEPT(virga_target_def, render_pass_info),
+         CALLS_BOOL(virga_target_def, depth_attached), CALLS_BOOL(virga_target_def, depth_written),
+         CALLS_BOOL(virga_target_def, reversed_depth));
 }
 
 /* ---- definitions */

@@ -64,6 +64,14 @@ void call_virga_water_spray(calls *c)
              calls_once_in(c, 8) ? NULL : origin);
 }
 
+void call_virga_water_foam(calls *c)
+{
+    virga_water_buffer foam;
+    double origin[3];
+    CALLS_DO(c, virga_water_foam, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &foam,
+             calls_once_in(c, 8) ? NULL : origin);
+}
+
 void call_virga_water_densities(calls *c)
 {
     virga_water_buffer densities;

@@ -34,6 +34,8 @@ typedef struct stand_in_state {
     VkPhysicalDevice physical;
     VkDevice device;
 
+    uint64_t timestamp_ns; /* from one timestamp to the next; 0: 1 */
+
     /* (optional) Called for each name that the library gives to an object. */
     void (*named)(VkObjectType type, uint64_t object, const char *name);
 

@@ -137,7 +137,7 @@ static void execute(const command *c)
     case FILL: fill(c); break;
     case COPY: copy(c); break;
     case UPDATE: contents(c->object, c->offset, c->size); break;
-    case TIMESTAMP: times[c->value] = ++device_time; break;
+    case TIMESTAMP: times[c->value] = device_time += stand_in.timestamp_ns ? stand_in.timestamp_ns : 1; break;
     case RESET: memset(times + c->value, 0, c->size * sizeof *times); break;
     case USE: break;
     }

@@ -76,8 +76,10 @@ static VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice device, VkPhysicalD
     (void)device;
     out->features = (VkPhysicalDeviceFeatures){.independentBlend = VK_TRUE, .wideLines = VK_TRUE};
     for (VkBaseOutStructure *at = out->pNext; at; at = at->pNext)
-        if (at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
-            ((VkPhysicalDeviceVulkan12Features *)(void *)at)->scalarBlockLayout = VK_TRUE;
+        if (at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
+            VkPhysicalDeviceVulkan12Features *of_1_2 = (VkPhysicalDeviceVulkan12Features *)(void *)at;
+            of_1_2->scalarBlockLayout = of_1_2->timelineSemaphore = of_1_2->hostQueryReset = VK_TRUE;
+        }
 }
 
 static VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties *out)

@@ -77,6 +77,10 @@ static bool open_device(drive *d)
         shows = VK_FALSE;
     if (!shows)
         return host_fail(d->error, sizeof d->error, "%s does not show pictures in this window", infos[index].name);
+    if (!d->chosen.has_quality)
+        d->quality = infos[index].type == VK_PHYSICAL_DEVICE_TYPE_CPU              ? VIRGA_QUALITY_LOW
+                     : infos[index].type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU ? VIRGA_QUALITY_MEDIUM
+                                                                                   : VIRGA_QUALITY_HIGH;
     return create_device(d, &infos[index]);
 }
 
@@ -135,20 +139,20 @@ static void keep_pipelines(drive *d)
 
 static bool create_rain(drive *d)
 {
-    const bool software = d->device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     virga_glass_def windshield = virga_default_glass_def();
+    virga_scene_def def = virga_default_scene_def();
+    virga_scene_apply_quality(d->quality, &def);
+    virga_glass_apply_quality(d->quality, &windshield);
     windshield.width_m = CAR_GLASS_WIDTH_M;
     windshield.height_m = CAR_GLASS_HEIGHT_M;
     windshield.max_texels = 2048; /* enough for a pane that fills the picture */
 
-    virga_scene_def def = virga_default_scene_def();
-    def.rain.max_drops = software ? 32768 : 131072;
-    def.rain.occlusion_size = software ? 512 : 1024;
+    if (d->chosen.out)
+        def.rain.max_ticks_per_step = 64; /* frames of files may be long, and are simulated in full */
     def.rain.occlusion_slants = 1;
     def.rain.max_panes = 1; /* the windshield catches the same drops that are drawn */
     def.rain.occluder_strides[0] = sizeof(host_vertex);
     def.with_ground = true;
-    def.ground.cells = software ? 512 : 1024;
     def.with_splash = true;
     def.panes = &windshield;
     def.pane_count = 1;
@@ -343,6 +347,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     const virga_view view = look(d, dt_s);
     const virga_scene_pane pane = place_windshield(d);
     virga_scene_frame frame = {.dt_s = dt_s, .view = &view, .panes = &pane, .defer_panes = true};
+    frame.step_budget_ms = d->budget_ms;
     frame.occluders = d->occluders;
     frame.occluder_count = fill_occluders(d);
     for (int axis = 0; axis < 3; axis++) {

@@ -22,6 +22,7 @@ extern const char *const wiper_names[WIPER_SPEEDS];
 
 /* The command line; options.c. */
 typedef struct choices {
+    bool has_quality; /* else the device decides */
     const char *model, *track, *out, *device, *pipelines;
     uint32_t frames, fps, width, height;
     double start_m;
@@ -59,6 +60,8 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
+    virga_quality quality; /* of the definitions */
+    float budget_ms;       /* of the device's time for ticks; 0: none */
     float rate_mm_h;
     int wiper_speed;
     double wiper_s; /* time in the wipers' cycle */

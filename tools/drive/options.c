@@ -27,6 +27,17 @@ static bool parse_wipers(drive *d, const char *name)
     return complain("--wipers", "off, intermittent, slow or fast");
 }
 
+static bool parse_quality(drive *d, const char *name)
+{
+    d->chosen.has_quality = true;
+    for (int quality = VIRGA_QUALITY_LOW; quality <= VIRGA_QUALITY_FILM; quality++)
+        if (strcmp(name, virga_quality_name((virga_quality)quality)) == 0) {
+            d->quality = (virga_quality)quality;
+            return true;
+        }
+    return complain("--quality", "low, medium, high or film");
+}
+
 static bool parse_option(drive *d, int option, const char *value)
 {
     double n = 0, m = 0;
@@ -38,6 +49,10 @@ static bool parse_option(drive *d, int option, const char *value)
     case 'p': d->chosen.pipelines = value; return true;
     case 'O': d->outside = true; return true;
     case 'w': return parse_wipers(d, value);
+    case 'q': return parse_quality(d, value);
+    case 'b':
+        d->budget_ms = number(value, 0, 1000, &n) ? (float)n : -1;
+        return d->budget_ms >= 0 || complain("--budget", "0 to 1000 ms");
     case 'r':
         d->rate_mm_h = number(value, 0, 200, &n) ? (float)n : -1;
         return d->rate_mm_h >= 0 || complain("--rain", "0 to 200 mm/h");
@@ -70,10 +85,12 @@ bool read_command_line(drive *d, int argc, char **argv)
         {"outside", no_argument, NULL, 'O'},      {"wipers", required_argument, NULL, 'w'},
         {"rain", required_argument, NULL, 'r'},   {"start", required_argument, NULL, 's'},
         {"frames", required_argument, NULL, 'n'}, {"fps", required_argument, NULL, 'f'},
-        {"size", required_argument, NULL, 'S'},   {0}};
+        {"size", required_argument, NULL, 'S'},   {"quality", required_argument, NULL, 'q'},
+        {"budget", required_argument, NULL, 'b'}, {0}};
     static char track_path[4096];
     d->chosen = (choices){.model = DRIVE_ASSETS "/scenes/street.glb", .fps = 30, .width = 1280, .height = 720};
     d->rate_mm_h = 30;
+    d->budget_ms = -1;
     d->wiper_speed = SLOW;
     for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;)
         if (!parse_option(d, option, optarg))
@@ -84,6 +101,8 @@ bool read_command_line(drive *d, int argc, char **argv)
         d->chosen.model = argv[optind];
     if (d->chosen.out && !d->chosen.frames)
         return complain("--out", "--frames N with it");
+    if (d->budget_ms < 0) /* files are the same whenever they are made */
+        d->budget_ms = d->chosen.out ? 0 : 8;
     if (!d->chosen.track) { /* the model's name, among our scenes */
         const char *name = strrchr(d->chosen.model, '/') ? strrchr(d->chosen.model, '/') + 1 : d->chosen.model;
         snprintf(track_path, sizeof track_path, "%s/scenes/%.*s.track", DRIVE_ASSETS, (int)strcspn(name, "."), name);
@@ -104,6 +123,8 @@ void print_help(void)
            "      --out FILE.png       the last of them as a picture, and no window\n"
            "      --fps N              frames a second of --out. Default 30\n"
            "      --size WxH           Default 1280x720\n"
+           "      --quality NAME       low, medium, high or film. Default by the kind of device\n"
+           "      --budget MS          device time for ticks in a frame. 0: no limit. Default 8, and 0 with --out\n"
            "      --device N|gpu|cpu|NAME\n"
            "      --pipelines FILE     keeps compiled pipelines for the next start\n\n"
            "Keys: C camera, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.\n");

@@ -252,6 +252,10 @@ typedef struct virga_rain_step_info {
 
     /* Position from which the field is looked at. May jump. */
     double camera_m[3];
+
+    /* [0; 64] ticks that the frame may run at most, e.g. as a frame is late already. Its steps together; values above
+     * def.max_ticks_per_step count as that. 0: max_ticks_per_step. Default 0. */
+    uint32_t max_ticks;
 } virga_rain_step_info;
 
 /* Runs the ticks that dt_s completes, and writes their impacts. Outside rendering. The first step also initialises the
@@ -260,8 +264,9 @@ typedef struct virga_rain_step_info {
  * Leaves the impact buffer ready to be read in the same command buffer: by compute and vertex shaders, as indirect
  * arguments (group_count), and by transfers.
  *
- * VIRGA_DEGRADED and one log line: dt_s has more ticks than max_ticks_per_step. A dt_s that is out of range is refused,
- * and no time passes. */
+ * VIRGA_DEGRADED and one log line: dt_s has more ticks than max_ticks_per_step or max_ticks. The rest of the time is
+ * dropped: rain then falls slower than the clock, and the time is not made up for. stats.ticks_dropped counts. A dt_s
+ * that is out of range is refused, and no time passes. */
 VIRGA_API virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_step_info *info);
 
 /* Returns the simulated time (s) that draw times count from: whole ticks, plus what dt_s left over. */
@@ -403,7 +408,8 @@ typedef struct virga_rain_stats {
     uint64_t total_water_nl;                /* water that has landed since creation */
     /* within this distance of the camera each slot is one real drop, at the current rate */
     float real_drop_radius_m;
-    float wind_m_s[3]; /* wind of the newest tick, including the gust */
+    float wind_m_s[3];      /* wind of the newest tick, including the gust */
+    uint64_t ticks_dropped; /* since creation, see virga_rain_step; those of frames in flight are included */
 } virga_rain_stats;
 
 VIRGA_API void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats);

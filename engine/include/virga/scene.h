@@ -118,6 +118,14 @@ typedef struct virga_scene_frame {
     /* [0; 10] host time since the last frame (s). */
     double dt_s;
 
+    /* [0; 1000] device time that the ticks of this frame may take (ms). A slow frame otherwise runs more ticks, which
+     * make the next one slower. The time of a tick is known from the newest measured frame, so it needs
+     * virga_context_def.timings; until a frame was measured, one tick is run. At least one tick is run in each frame
+     * that has one. The rest of the time is dropped, see virga_rain_step.
+     * With a budget the number of ticks depends on measured times, so two runs differ: recordings and films use 0. What
+     * a tick does never depends on it. 0: no budget. Default 0. */
+    float step_budget_ms;
+
     /* Middle of what is simulated: drops, occlusion maps, ground. Normally view->position_m; it is separate because a
      * frame may have no view or several. A view farther from it than rain.range_m sees no drops, which is logged. It
      * may jump. */

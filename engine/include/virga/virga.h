@@ -9,6 +9,7 @@
 #include <virga/lens.h>
 #include <virga/light.h>
 #include <virga/material.h>
+#include <virga/quality.h>
 #include <virga/rain.h>
 #include <virga/scene.h>
 #include <virga/splash.h>

@@ -1,0 +1,62 @@
+/* virga/quality.h - presets of definitions: how much of an effect a device can afford. Needs the Vulkan headers.
+ *
+ * A preset fills the sizes of a definition and leaves all else as it is: seeds, ticks, what is on. So begin with the
+ * default definition, apply a preset, then set what is yours:
+ *
+ *     virga_scene_def def = virga_default_scene_def();
+ *     virga_scene_apply_quality(VIRGA_QUALITY_MEDIUM, &def);
+ *     def.with_ground = true;
+ *
+ * The same rain falls at all qualities: the water that lands is the rate's, and slots that are left out are made up for
+ * by the weight of the others. What changes is how far single drops, splashes and cells reach, and how fine maps are.
+ *
+ *     quality   meant for                                       ticks in a frame, at most
+ *     LOW       software Vulkan, phones, small integrated GPUs  2
+ *     MEDIUM    integrated GPUs, handheld consoles              3
+ *     HIGH      a desktop GPU in a game; sizes are the default  4
+ *     FILM      pictures that may take seconds                  64
+ *
+ * With at most 4 ticks of 1/60 s, rain falls at its own speed down to 15 frames per second, and slower below. It never
+ * makes a slow frame slower: see also virga_scene_frame.step_budget_ms.
+ *
+ * Thread-safety: any thread. A NULL pointer is ignored, and so is a quality that does not exist. */
+#ifndef VIRGA_QUALITY_H
+#define VIRGA_QUALITY_H
+
+#include <virga/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum virga_quality {
+    VIRGA_QUALITY_LOW = 0,
+    VIRGA_QUALITY_MEDIUM = 1,
+    VIRGA_QUALITY_HIGH = 2,
+    VIRGA_QUALITY_FILM = 3,
+} virga_quality;
+
+/* Returns "low", "medium", "high" or "film", for menus and options; "unknown" for another number. Never NULL. */
+VIRGA_API const char *virga_quality_name(virga_quality quality);
+
+/* max_drops, max_impacts, max_streaks, occlusion_size, _cascades and _slants, max_ticks_per_step. */
+VIRGA_API void virga_rain_apply_quality(virga_quality quality, virga_rain_def *def);
+
+/* cells, cached_tiles, far_cells, ripple_texels, flow_ticks, max_impacts, max_spawns, max_returned_droplets,
+ * max_ticks_per_step. cell_m and ripple_texel_m change too, so that low qualities do not reach less far. */
+VIRGA_API void virga_ground_apply_quality(virga_quality quality, virga_ground_def *def);
+
+/* max_splashes, max_droplets, max_spawns, max_returned_droplets, max_ticks_per_step. */
+VIRGA_API void virga_splash_apply_quality(virga_quality quality, virga_splash_def *def);
+
+/* cell_m, max_drops, max_texels, max_ticks_per_step. */
+VIRGA_API void virga_glass_apply_quality(virga_quality quality, virga_glass_def *def);
+
+/* All of these for the effects of a scene, but panes: these are the host's own definitions, see
+ * virga_glass_apply_quality. Memory: virga_scene_estimate. */
+VIRGA_API void virga_scene_apply_quality(virga_quality quality, virga_scene_def *def);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
