@@ -293,6 +293,9 @@ static virga_result draw_foam(virga_water *water, VkCommandBuffer cmd, const vir
                               virga_prepared prepared, const char *call)
 {
     virga_pass_scope scope;
+    if (!cmd || !target || target->context != water->base.context)
+        return virga_wrong_argument(&water->base.context->log,
+                                    "%s: expected a command buffer, and a target of the same context", call);
     if (!water_has_foam(water))
         return VIRGA_OK;
     const virga_result result = begin_draw(water, cmd, target, prepared, call, true, &scope);

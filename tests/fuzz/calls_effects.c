@@ -167,7 +167,6 @@ DRAWN(splash, draw, CALLS_SPLASH)
 DRAWN(glass, draw, CALLS_GLASS)
 DRAWN(glass, draw_refraction, CALLS_GLASS)
 DRAWN(water, draw, CALLS_WATER)
-DRAWN(water, draw_foam, CALLS_WATER)
 DRAWN(lens, draw, CALLS_LENS)
 DRAWN(scene, draw, CALLS_SCENE)
 

@@ -50,7 +50,6 @@ PREPARED(lens, CALLS_LENS, NULL, 0, calls_number(c, 0, 4), )
 DRAWN(rain_draw, CALLS_RAIN)
 DRAWN(splash_draw, CALLS_SPLASH)
 DRAWN(water_draw, CALLS_WATER)
-DRAWN(water_draw_foam, CALLS_WATER)
 DRAWN(glass_draw, CALLS_GLASS)
 DRAWN(glass_draw_refraction, CALLS_GLASS)
 DRAWN(lens_draw, CALLS_LENS)
@@ -107,4 +106,24 @@ void call_virga_scene_prepare_panes_view(calls *c)
     flags &= ~(uint32_t)CALLS_WRONG; /* a scene without panes has nothing to do, whatever it is given */
     CALLS_TRY(c, h.context, calls_of(h.object, flags), virga_scene_prepare_panes_view, h.object, cmd,
               calls_below(c, 10), &view, panes);
+}
+
+/* Water without foam has nothing to draw. */
+void call_virga_water_draw_foam(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER), target = calls_pick(c, CALLS_TARGET);
+    VkCommandBuffer cmd;
+    uint32_t flags = with_target(h, target) & ~(uint32_t)CALLS_RECORDS;
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_draw_foam, h.object, cmd, target.object);
+}
+
+void call_virga_water_draw_foam_view(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER), target = calls_pick(c, CALLS_TARGET);
+    const virga_prepared view = some_view(c, CALLS_WATER);
+    VkCommandBuffer cmd;
+    uint32_t flags = with_target(h, target) & ~(uint32_t)CALLS_RECORDS;
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_draw_foam_view, h.object, cmd, target.object, view);
 }

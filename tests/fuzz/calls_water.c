@@ -167,3 +167,8 @@ void call_virga_lens_fill_view(calls *c)
     virga_view view = virga_default_view();
     CALLS_DO(c, virga_lens_fill_view, calls_pick(c, CALLS_LENS).object, calls_once_in(c, 8) ? NULL : &view);
 }
+
+void call_virga_splash_give_hits(calls *c)
+{
+    (void)c; /* see its own tests: it records into buffers of several effects */
+}
