@@ -170,5 +170,11 @@ void call_virga_lens_fill_view(calls *c)
 
 void call_virga_splash_give_hits(calls *c)
 {
-    (void)c; /* see its own tests: it records into buffers of several effects */
+    const calls_handle h = calls_pick(c, CALLS_SPLASH);
+    const bool wrong = calls_once_in(c, 12);
+    VkCommandBuffer cmd;
+    uint32_t flags = calls_of(h.object, CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    if (!c->device->honest && calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_splash_give_hits, h.object, cmd, calls_below(c, 3),
+                  wrong ? VK_NULL_HANDLE : c->device->buffer(c), 0, calls_below(c, 65536));
 }
