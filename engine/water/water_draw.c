@@ -16,6 +16,10 @@
 #include <math.h>
 #include <string.h>
 
+_Static_assert(VIRGA_WATER_DATA_THICKNESS == VIRGA_WATER_DATA_THICKNESS_GPU, "the same values");
+_Static_assert(VIRGA_WATER_DATA_NORMAL == VIRGA_WATER_DATA_NORMAL_GPU, "the same values");
+_Static_assert(VIRGA_WATER_DATA_MOTION == VIRGA_WATER_DATA_MOTION_GPU, "the same values");
+
 enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA };
 
 const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
@@ -242,6 +246,7 @@ static const uint32_t looks[LOOKS] = {0, 1, 2, 3, 4, 5, 6, 7};
 const virga_effect_draw water_draws[WATER_DRAWS] = {
     {"water.draw", VIRGA_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
     {"water.foam_draw", VIRGA_FORM(water_draw_foam_vert), VIRGA_FRAGMENT_FORMS(water_draw_foam_frag), looks, 2},
+    {"water.data_draw", VIRGA_FORM(water_draw_data_vert), VIRGA_FORM(water_draw_data_frag)},
 };
 
 virga_result virga_water_attach(virga_water *water, const virga_target *target)
@@ -253,9 +258,27 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
     return virga_effect_attach(&water->base, "virga_water_attach", target);
 }
 
+/* The pipelines of a target: those of water and of foam by looks, and that of data. */
+static uint32_t draw_of_water(uint32_t look)
+{
+    return look;
+}
+
+static uint32_t draw_of_foam(uint32_t look)
+{
+    return LOOKS + (look & VIRGA_WATER_LOOK_DEPTH);
+}
+
+static uint32_t draw_of_data(uint32_t look)
+{
+    (void)look;
+    return LOOKS + 2;
+}
+
 /* Begins a draw with one of a target's pipelines: the one of a row that fits the view. */
 static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
-                               virga_prepared prepared, const char *call, bool foam, virga_pass_scope *scope)
+                               virga_prepared prepared, const char *call, uint32_t (*draw_of)(uint32_t look),
+                               virga_pass_scope *scope)
 {
     virga_context *context = water->base.context;
     const virga_effect_target *found;
@@ -264,12 +287,14 @@ static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const vi
                                                   stepped ? virga_effect_ready(&water->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
-    const uint32_t look = water->picture.look[water->base.slot];
-    const virga_pipeline *used = found->draws[foam ? LOOKS + (look & VIRGA_WATER_LOOK_DEPTH) : look];
+    const virga_pipeline *used = found->draws[draw_of(water->picture.look[water->base.slot])];
     result = virga_pipelines_ready(&used, 1);
     if (result)
         return result;
-    *scope = virga_draw_begin(context, cmd, foam ? "water.foam_draw" : "water.draw");
+    *scope = virga_draw_begin(context, cmd,
+                              draw_of == draw_of_foam   ? "water.foam_draw"
+                              : draw_of == draw_of_data ? "water.data_draw"
+                                                        : "water.draw");
     const virga_effect_view *view = virga_effect_selected(&water->base);
     virga_set_draw_area(context, cmd, view->viewport);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
@@ -281,7 +306,7 @@ virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_tar
                         const char *call)
 {
     virga_pass_scope scope;
-    const virga_result result = begin_draw(water, cmd, target, prepared, call, false, &scope);
+    const virga_result result = begin_draw(water, cmd, target, prepared, call, draw_of_water, &scope);
     if (result)
         return result;
     water->base.context->vk.CmdDraw(cmd, 3, 1, 0, 0);
@@ -298,7 +323,7 @@ static virga_result draw_foam(virga_water *water, VkCommandBuffer cmd, const vir
                                     "%s: expected a command buffer, and a target of the same context", call);
     if (!water_has_foam(water))
         return VIRGA_OK;
-    const virga_result result = begin_draw(water, cmd, target, prepared, call, true, &scope);
+    const virga_result result = begin_draw(water, cmd, target, prepared, call, draw_of_foam, &scope);
     if (result)
         return result;
     water->base.context->vk.CmdDrawIndirect(cmd, water->state->buffer, offsetof(virga_water_state_gpu, foam_vertices),
@@ -317,6 +342,34 @@ virga_result virga_water_draw_foam_view(virga_water *water, VkCommandBuffer cmd,
                                         virga_prepared prepared)
 {
     return water ? draw_foam(water, cmd, target, prepared, "virga_water_draw_foam_view") : VIRGA_ERROR_INVALID;
+}
+
+static virga_result draw_data(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                              virga_prepared prepared, virga_water_data what, const char *call)
+{
+    virga_pass_scope scope;
+    if ((uint32_t)what > VIRGA_WATER_DATA_MOTION)
+        return virga_wrong_argument(&water->base.context->log, "%s: expected a virga_water_data, got %d", call,
+                                    (int)what);
+    const virga_result result = begin_draw(water, cmd, target, prepared, call, draw_of_data, &scope);
+    if (result)
+        return result;
+    water->base.context->vk.CmdDraw(cmd, 3, 1, 0, (uint32_t)what);
+    virga_pass_end(water->base.context, cmd, scope);
+    return VIRGA_OK;
+}
+
+virga_result virga_water_draw_data(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                   virga_water_data what)
+{
+    return water ? draw_data(water, cmd, target, virga_effect_newest(&water->base), what, "virga_water_draw_data")
+                 : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_water_draw_data_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                        virga_prepared prepared, virga_water_data what)
+{
+    return water ? draw_data(water, cmd, target, prepared, what, "virga_water_draw_data_view") : VIRGA_ERROR_INVALID;
 }
 
 /* ---- environment */

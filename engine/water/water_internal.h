@@ -42,7 +42,7 @@ enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17 };
 #define WATER_KERNELS       2 /* virga_water_kernel */
 #define WATER_MAX_VIEWS     8 /* prepares in a frame */
 #define WATER_DRAW_BINDINGS 24
-#define WATER_DRAWS         2
+#define WATER_DRAWS         3
 
 /* The uniforms of a view. */
 typedef struct water_view_block {

@@ -19,6 +19,11 @@ typedef struct virga_water_prepared_gpu virga_water_prepared_gpu;
 #define VIRGA_WATER_LOOK_COLOR    2u    /* it has color */
 #define VIRGA_WATER_LOOK_SCALED   4u    /* the effect's images have other pixels than the target */
 
+/* Values of virga_water_data. */
+#define VIRGA_WATER_DATA_THICKNESS_GPU 0u
+#define VIRGA_WATER_DATA_NORMAL_GPU    1u
+#define VIRGA_WATER_DATA_MOTION_GPU    2u
+
 /* A view of the water. */
 struct virga_water_look_gpu {
     float axes[9];           /* the camera's right, up and back in the world; unit vectors */

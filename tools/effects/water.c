@@ -302,9 +302,57 @@ static virga_result draw_foam(void *state, VkCommandBuffer cmd, const virga_targ
     return p->water ? virga_water_draw_foam(p->water, cmd, target) : VIRGA_OK;
 }
 
+static virga_result draw_data(void *state, VkCommandBuffer cmd, const virga_target *target, virga_water_data what)
+{
+    const water_state *p = state;
+    return p->water ? virga_water_draw_data(p->water, cmd, target, what) : VIRGA_OK;
+}
+
+static virga_result draw_thickness(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw_data(state, cmd, target, VIRGA_WATER_DATA_THICKNESS);
+}
+
+static virga_result draw_normal(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw_data(state, cmd, target, VIRGA_WATER_DATA_NORMAL);
+}
+
+static virga_result draw_velocity(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw_data(state, cmd, target, VIRGA_WATER_DATA_MOTION);
+}
+
 static const tool_layer layers[] = {
     {TOOL_COLOR_LAYER("water", draw, 15, "water", "the water alone")},
     {TOOL_COLOR_LAYER("foam", draw_foam, 16, "foam", "foam, spray and bubbles of the water alone")},
+    {.name = "water_thickness",
+     .channels = {"water_thickness.Y"},
+     .type = EXR_SAMPLE_FLOAT,
+     .help = "metres of water along the direction of view",
+     .draw = draw_thickness,
+     .order = 32,
+     .is_data = true,
+     .view_title = "Layer: thickness of water",
+     .view_help = "metres of water along the direction of view, as red"},
+    {.name = "water_normal",
+     .channels = {"water_normal.X", "water_normal.Y", "water_normal.Z"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "normal of the water's surface in the world",
+     .draw = draw_normal,
+     .order = 33,
+     .is_data = true,
+     .view_title = "Layer: normal of water",
+     .view_help = "normal of the water's surface in the world, as color"},
+    {.name = "water_velocity",
+     .channels = {"water_velocity.X", "water_velocity.Y"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "motion of the water's surface, pixels per frame right and down",
+     .draw = draw_velocity,
+     .order = 34,
+     .is_data = true,
+     .view_title = "Layer: velocity of water",
+     .view_help = "motion of the water's surface: red right, green down"},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 
 #include "memory.h"
 
-#define HOST_MAX_LAYERS 8
+#define HOST_MAX_LAYERS 12
 
 typedef enum host_output {
     HOST_COLOR,    /* RGBA float: linear radiance, alpha 1 */

@@ -356,6 +356,23 @@ VIRGA_API virga_result virga_water_draw_foam(virga_water *water, VkCommandBuffer
 VIRGA_API virga_result virga_water_draw_foam_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
                                                   virga_prepared prepared);
 
+/* What virga_water_draw_data writes. */
+typedef enum virga_water_data {
+    VIRGA_WATER_DATA_THICKNESS = 0, /* red: metres of water along the direction of view */
+    VIRGA_WATER_DATA_NORMAL = 1,    /* red, green, blue: the surface's normal in the world, out of the water */
+    VIRGA_WATER_DATA_MOTION = 2,    /* red, green: motion vector, scaled by virga_temporal.motion_scale */
+} virga_water_data;
+
+/* Writes data of the view that was prepared into a target with a format of floats, inside rendering, e.g. for
+ * compositing. Pixels that water covers by half or more get the value and the alpha 1; the others are left as they are.
+ * Otherwise as virga_water_draw. VIRGA_ERROR_INVALID for another value of `what`. */
+VIRGA_API virga_result virga_water_draw_data(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                             virga_water_data what);
+
+/* The same for any view that was prepared in this frame, as virga_water_draw_view. */
+VIRGA_API virga_result virga_water_draw_data_view(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
+                                                  virga_prepared prepared, virga_water_data what);
+
 /* A range of a buffer, in bytes. */
 typedef struct virga_water_buffer {
     VkBuffer buffer;

@@ -33,6 +33,13 @@ float thickness_at(vec2 at)
                           ivec2(look.volume_columns, look.volume_rows)).r;
 }
 
+// A normal that is turned away from the eye is blurred or rounded; there the surface is seen edge-on.
+vec3 seen_normal(vec3 normal, vec3 incident)
+{
+    const float against = dot(normal, incident);
+    return against > -0.02 ? normalize(normal - incident * (against + 0.02)) : normal;
+}
+
 #define THIN_PX 1.5 // surfels of this radius and below blur the border by themselves
 #define WIDE_PX 3.0
 #define MIN_SLOPE 0.02

@@ -35,9 +35,7 @@ void main()
     point.depth = depth;
     point.position = ray * depth;
     point.incident = normalize(ray);
-    // A normal that is turned away from the eye is blurred or rounded; there the surface is seen edge-on.
-    const float against = dot(normal, point.incident);
-    point.normal = against > -0.02 ? normalize(normal - point.incident * (against + 0.02)) : normal;
+    point.normal = seen_normal(normal, point.incident);
     point.spread = 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
     point.thickness = thickness_at(at);
     radiance = vec4(light_of(point) * covered, covered);
