@@ -54,6 +54,6 @@ float coverage_of(float weight, float slope, float depth)
 {
     const float radius_px = look.surfel_scale * look.surfel_m / (look.pixel_angle * depth);
     const float sharp = clamp(0.5 + (weight - 0.5) / clamp(slope, MIN_SLOPE, MAX_SLOPE), 0.0, 1.0);
-    const float soft = max(clamp(0.5 + 4.0 * (weight - 0.5), 0.0, 1.0), 0.5 * weight);
+    const float soft = max(clamp(0.5 + 4.0 * (weight - 0.5), 0.0, 1.0), 0.5 * min(weight, 1.0));
     return mix(soft, sharp, smoothstep(THIN_PX, WIDE_PX, radius_px));
 }
