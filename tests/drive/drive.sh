@@ -52,7 +52,7 @@ without_layers second --rain 10 --frames 1 --pipelines "$work/pipelines"
 
 # Every option of the command line stands in the help.
 "$drive" --help >"$work/help" || { echo "drive --help failed"; exit 1; }
-for option in track start outside rain wipers frames out fps size device pipelines; do
+for option in track start outside rain wipers frames out fps size quality budget device pipelines; do
     grep -q -- "--$option" "$work/help" || { echo "drive --help does not say --$option"; exit 1; }
 done
 
@@ -66,6 +66,8 @@ refuse() { # code text options...
 }
 refuse 2 "expected 0 to 200 mm/h" --rain wet
 refuse 2 "expected off, intermittent, slow or fast" --wipers sometimes
+refuse 2 "expected low, medium, high or film" --quality best
+refuse 2 "expected 0 to 1000 ms" --budget soon
 refuse 2 "expected WxH" --size 640
 refuse 2 "expected --frames N" --out "$work/x.png"
 refuse 1 "no such track" "$work/nothing.glb" --frames 1 --out "$work/x.png" --device "${VIRGA_TEST_DEVICE:-cpu}"

@@ -347,9 +347,9 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     const virga_view view = look(d, dt_s);
     const virga_scene_pane pane = place_windshield(d);
     virga_scene_frame frame = {.dt_s = dt_s, .view = &view, .panes = &pane, .defer_panes = true};
-    frame.step_budget_ms = d->budget_ms;
     frame.occluders = d->occluders;
     frame.occluder_count = fill_occluders(d);
+    frame.step_budget_ms = d->budget_ms;
     for (int axis = 0; axis < 3; axis++) {
         frame.camera_m[axis] = d->camera.position_m[axis];
         frame.ripple_center_m[axis] = d->car.position_m[axis] - 3.0 * (double)d->car.axes[6 + axis];
