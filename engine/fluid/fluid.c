@@ -22,6 +22,9 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_cells, 4096, 16777216, 262144),
     DEF(U32, max_substeps, 1, 64, 8),
     DEF(U32, max_iterations, 1, 100, 20),
+    DEF(U32, max_bodies, 0, VIRGA_FLUID_MAX_BODIES),
+    DEF(U32, max_body_nodes, 4096, 16777216, 262144),
+    DEF(U32, max_contacts, 256, 1048576, 16384),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -59,7 +62,7 @@ static virga_result fit_device(const virga_context *context, void *given)
 
 /* ---- resources */
 
-enum { COUNT_PARTICLES = 1, COUNT_CELLS, COUNT_SCAN_GROUPS, COUNT_LIST_TEXELS, COUNT_BLOCKS };
+enum { COUNT_PARTICLES = 1, COUNT_CELLS, COUNT_SCAN_GROUPS, COUNT_LIST_TEXELS, COUNT_BLOCKS, COUNT_CONTACTS, COUNT_TOUCHES, COUNT_NODES };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
@@ -69,6 +72,10 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_GRID_SCAN_CELLS;
     counts[COUNT_LIST_TEXELS] = (VkDeviceSize)def->max_particles * VIRGA_FLUID_LIST_TEXELS;
     counts[COUNT_BLOCKS] = FLUID_MAX_BLOCKS + 1;
+    /* A buffer that no pass reads has a texel. */
+    counts[COUNT_CONTACTS] = def->max_bodies ? VIRGA_FLUID_MAX_BODIES * (VkDeviceSize)def->max_contacts : 1;
+    counts[COUNT_TOUCHES] = def->max_bodies ? VIRGA_FLUID_TOUCHES * (VkDeviceSize)def->max_particles : 1;
+    counts[COUNT_NODES] = def->max_bodies ? def->max_body_nodes : 1;
 }
 
 static const virga_effect_buffer buffers[] = {
@@ -83,11 +90,17 @@ static const virga_effect_buffer buffers[] = {
     {"fluid.moved", AT(moved), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.walls", AT(walls), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.solved", AT(solved), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
+    {"fluid.bodies", AT(body_states), VIRGA_USE_STORAGE, DEVICE,
+     .head = VIRGA_FLUID_MAX_BODIES * sizeof(virga_fluid_body_gpu), .entry = 4, .count = COUNT_CONTACTS,
+     .first = VIRGA_FIRST_FILL},
+    {"fluid.touches", AT(touches), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_TOUCHES},
+    {"fluid.maps", AT(maps), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_NODES},
     {"fluid.lists", AT(lists), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_LIST_TEXELS},
 };
 
 static const virga_effect_ring rings[] = {
     {"fluid.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_step_gpu), VIRGA_COUNT_ONE},
+    {"fluid.shapes", AT(shape_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_shapes_gpu), VIRGA_COUNT_ONE},
     {"fluid.adds", AT(add_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_add_gpu), COUNT_BLOCKS},
 };
 
@@ -111,7 +124,7 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.tickets)},                          /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(body_states)},                           /* 7 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                        /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 10 */
@@ -125,6 +138,11 @@ static const virga_binding_kind bindings[] = {
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                  /* 18 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                  /* 19 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                  /* 20 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(touches)},                               /* 21 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(touches)},                                /* 22 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(maps)},                                  /* 23 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(maps)},                                   /* 24 */
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(shape_ring), sizeof(virga_fluid_shapes_gpu)}, /* 25 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -138,7 +156,7 @@ static const virga_effect_layout layouts[] = {
 static const virga_effect_pass passes[] = {
     PASS(add, .layout = FLUID_LAYOUT_ADD),
     STEP_PASS(begin),
-    STEP_PASS(count),
+    PASS(count, .layout = FLUID_LAYOUT_GRID),
     GRID_PASS(thin),
     GRID_PASS(sums),
     GRID_PASS(scan),
@@ -151,7 +169,11 @@ static const virga_effect_pass passes[] = {
     STEP_PASS(correct),
     STEP_PASS(check),
     STEP_PASS(forces),
+    STEP_PASS(body_contacts),
+    STEP_PASS(body_push),
+    STEP_PASS(body_move),
     STEP_PASS(advance),
+    STEP_PASS(body_hit),
 };
 
 static const virga_effect_pool pools[] = {
@@ -210,6 +232,23 @@ static virga_result check_box(const virga_fluid *fluid, const virga_fluid_settin
     return VIRGA_OK;
 }
 
+static uint32_t pass_constant(const void *object)
+{
+    return ((const virga_fluid *)object)->def.max_bodies ? VIRGA_FLUID_FORM_BODIES : 0;
+}
+
+/* While the map of a body is on its way to the device. */
+static VkDeviceSize extra_bytes(const void *given)
+{
+    const virga_fluid_def *def = given;
+    return def->max_bodies ? (VkDeviceSize)def->max_body_nodes * 16 : 0;
+}
+
+static void destroy(void *object)
+{
+    fluid_remove_bodies(object);
+}
+
 static virga_result check_settings(const void *object, void *settings, bool *changed)
 {
     const virga_fluid *fluid = object;
@@ -222,6 +261,9 @@ static virga_result check_settings(const void *object, void *settings, bool *cha
     virga_clamp_vector(log, "fluid_settings.low_m", next->low_m, MAX_POSITION_M, changed);
     virga_clamp_vector(log, "fluid_settings.high_m", next->high_m, MAX_POSITION_M, changed);
     virga_clamp_vector(log, "fluid_settings.gravity_m_s2", next->gravity_m_s2, VIRGA_MAX_ACCELERATION_M_S2, changed);
+    if (fluid->body_count && next->spacing_m != fluid->settings.spacing_m)
+        return virga_wrong_argument(log, "fluid_settings.spacing_m: expected %g, as there are bodies, got %g",
+                                    (double)fluid->settings.spacing_m, (double)next->spacing_m);
     return check_box(fluid, next);
 }
 
@@ -233,6 +275,9 @@ const virga_effect_type fluid_type = {
     .fit_device = fit_device,
     .fill_settings = fill_settings,
     .check_settings = check_settings,
+    .pass_constant = pass_constant,
+    .extra_bytes = extra_bytes,
+    .destroy = destroy,
     .lost = fluid_lost,
 };
 
@@ -296,6 +341,7 @@ virga_result virga_fluid_clear(virga_fluid *fluid)
 {
     if (!fluid)
         return VIRGA_ERROR_INVALID;
+    fluid_remove_bodies(fluid);
     fluid->particles = fluid->block_count = 0;
     memset(fluid->sent, 0, sizeof fluid->sent);
     return VIRGA_OK;

@@ -1,11 +1,15 @@
 /* fluid/fluid_internal.h - defines the struct of virga_fluid and the functions its files share. Internal.
  *
  *   fluid.c       create, destroy, settings, blocks of water, queries
+ *   fluid_body.c  bodies: what the host tells of them and asks
+ *   body_mesh.c   the mass of a body, by its mesh
+ *   body_map.c    what it means for particles near it, on a grid
  *   fluid_step.c  a step
  */
 #ifndef VIRGA_FLUID_FLUID_INTERNAL_H
 #define VIRGA_FLUID_FLUID_INTERNAL_H
 
+#include "fluid/body_mesh.h"
 #include "fluid/fluid.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
@@ -18,7 +22,24 @@
 /* The data that is read back for one frame. */
 typedef struct fluid_readback {
     virga_fluid_state_gpu state;
+    virga_fluid_body_gpu bodies[VIRGA_FLUID_MAX_BODIES];
 } fluid_readback;
+
+/* Where the host wants a body to be, at its center of mass. */
+typedef struct fluid_pose {
+    double center[3], rotation[4];
+} fluid_pose;
+
+/* A body, as the host knows it. */
+typedef struct fluid_body {
+    virga_fluid_shape_gpu shape;
+    virga_fluid_body_gpu start; /* (free) what the device begins with; (driven) at the beginning of the next step */
+    fluid_pose wanted;          /* (driven) at the end of the next step */
+    bool is_driven;
+    uint64_t sent_frame; /* in which the device was told of it; 0: not yet */
+    virga_fluid_body_gpu newest; /* that was read back */
+    uint64_t newest_frame;
+} fluid_body;
 
 enum { FLUID_LAYOUT_GRID, FLUID_LAYOUT_ADD, FLUID_LAYOUT_STEP };
 
@@ -41,16 +62,35 @@ struct virga_fluid {
     } sent[VIRGA_MAX_FRAMES_IN_FLIGHT];
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
 
+    fluid_body bodies[VIRGA_FLUID_MAX_BODIES];
+    uint32_t body_count;
+    uint32_t (*map)[4];       /* nodes and points of all bodies */
+    uint32_t map_nodes;
+    virga_buffer *map_upload; /* until the device has them */
+
     particle_grid grid;
-    virga_buffer *state, *slots, *slot_pressures, *positions, *moved, *walls, *solved, *lists;
-    virga_ring step_ring, add_ring;
+    virga_buffer *state, *slots, *slot_pressures, *positions, *moved, *walls, *solved, *lists, *body_states, *touches,
+        *maps;
+    virga_ring step_ring, add_ring, shape_ring;
     virga_bindings *add_bindings, *bindings;
     virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;
+    virga_pipeline *body_contacts, *body_push, *body_move, *body_hit;
     virga_fluid_stats stats;
 };
 
 /* First cell and number of cells of the grid on each axis. */
 void fluid_grid_box(const virga_fluid_settings *settings, int32_t first[3], uint32_t dims[3]);
+
+/* ---- fluid_body.c */
+
+/* Tells the device of the bodies: maps, the beginning of new ones, and of those that the host moves. Fills their part of
+ * a step. */
+void fluid_send_bodies(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s, virga_fluid_step_gpu *step,
+                       virga_fluid_shapes_gpu *shapes);
+/* The device has not executed a frame. */
+void fluid_bodies_lost(virga_fluid *fluid, uint64_t frame);
+void fluid_read_bodies(virga_fluid *fluid, uint64_t frame, const virga_fluid_body_gpu *bodies);
+void fluid_remove_bodies(virga_fluid *fluid);
 
 /* ---- fluid_step.c */
 void fluid_lost(void *fluid, uint64_t frame, uint32_t did);

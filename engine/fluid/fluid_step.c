@@ -28,6 +28,7 @@ void fluid_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                                        .iterations = read.state.iterations,
                                        .solver_error = read.state.solver_error,
                                        .max_speed_m_s = sqrtf(speed2)};
+    fluid_read_bodies(fluid, frame, read.bodies);
 }
 
 /* ---- particles that are added */
@@ -38,6 +39,7 @@ void fluid_lost(void *object, uint64_t frame, uint32_t did)
 {
     virga_fluid *fluid = object;
     (void)did;
+    fluid_bodies_lost(fluid, frame);
     for (uint32_t slot = 0; slot < VIRGA_MAX_FRAMES_IN_FLIGHT; slot++) {
         const uint32_t room = FLUID_MAX_BLOCKS - fluid->block_count;
         if (fluid->sent[slot].frame != frame)
@@ -99,12 +101,13 @@ typedef struct recording {
     virga_context *context;
     VkCommandBuffer cmd;
     VkDescriptorSet set, grid_set;
-    uint32_t offset; /* of the step's block */
+    uint32_t offsets[2]; /* of the blocks: the step's, and that of the bodies' shapes */
 } recording;
 
 static void bind(const recording *r, const virga_bindings *bindings, VkDescriptorSet set)
 {
-    virga_bind(r->context, r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, set, 1, &r->offset);
+    virga_bind(r->context, r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, set, bindings == r->fluid->bindings ? 2 : 1,
+               r->offsets);
 }
 
 /* Dispatches with arguments of the state. */
@@ -117,6 +120,16 @@ static void run(const recording *r, const virga_pipeline *pass, size_t groups)
 #define FLUID offsetof(virga_fluid_state_gpu, fluid_groups)
 #define LOOP  offsetof(virga_fluid_state_gpu, loop_groups)
 
+/* A pass over bodies. */
+static void run_bodies(const recording *r, const virga_pipeline *pass, size_t groups)
+{
+    if (r->fluid->body_count)
+        run(r, pass, groups);
+}
+
+#define BODIES      offsetof(virga_fluid_state_gpu, body_groups)
+#define LOOP_BODIES offsetof(virga_fluid_state_gpu, loop_body_groups)
+
 static void sort(const recording *r)
 {
     const virga_fluid *fluid = r->fluid;
@@ -127,8 +140,8 @@ static void sort(const recording *r)
     virga_wait(r->context, r->cmd, VIRGA_COPIES, VIRGA_PASSES);
     bind(r, fluid->bindings, r->set);
     virga_dispatch_and_barrier(r->context, r->cmd, fluid->begin, 1);
-    run(r, fluid->count, SLOTS);
     bind(r, fluid->grid.bindings, r->grid_set);
+    run(r, fluid->count, SLOTS);
     particle_grid_sort(r->context, r->cmd, &fluid->grid, fluid->state->buffer, SLOTS);
     bind(r, fluid->bindings, r->set);
     virga_dispatch_indirect_and_barrier(r->context, r->cmd, fluid->copy, fluid->grid.state->buffer,
@@ -142,6 +155,7 @@ static void solve(const recording *r)
     const virga_pass_scope scope = virga_pass_begin(r->context, r->cmd, "fluid.solve");
     for (uint32_t i = 0; i < fluid->def.max_iterations; i++) {
         run(r, fluid->push, LOOP);
+        run_bodies(r, fluid->body_push, LOOP_BODIES);
         run(r, fluid->correct, LOOP);
         run(r, fluid->check, offsetof(virga_fluid_state_gpu, loop_one_group));
     }
@@ -160,9 +174,12 @@ static void substep(const recording *r)
     const virga_fluid *fluid = r->fluid;
     sort(r);
     run_named(r, "fluid.neighbours", fluid->neighbours);
+    run_bodies(r, fluid->body_contacts, BODIES);
     run_named(r, "fluid.forces", fluid->forces);
     solve(r);
+    run_bodies(r, fluid->body_move, BODIES);
     run_named(r, "fluid.advance", fluid->advance);
+    run_bodies(r, fluid->body_hit, BODIES);
 }
 
 /* ---- a step */
@@ -201,7 +218,9 @@ static void fill_step(const virga_fluid *fluid, float dt_s, virga_fluid_step_gpu
                                   .cfl = settings->cfl,
                                   .max_substeps = fluid->def.max_substeps,
                                   .solver_error = settings->solver_error,
-                                  .stride = fluid->def.max_particles};
+                                  .stride = fluid->def.max_particles,
+                                  .bodies = fluid->body_count,
+                                  .max_contacts = fluid->def.max_contacts};
     memcpy(out->low_m, settings->low_m, sizeof out->low_m);
     memcpy(out->high_m, settings->high_m, sizeof out->high_m);
     memcpy(out->gravity_m_s2, settings->gravity_m_s2, sizeof out->gravity_m_s2);
@@ -217,14 +236,14 @@ static void begin_state(const virga_fluid *fluid, VkCommandBuffer cmd, float dt_
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
-static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s)
+static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_gpu *step,
+                         const virga_fluid_shapes_gpu *shapes)
 {
     virga_context *context = fluid->base.context;
     virga_bound bound[VIRGA_MAX_BINDINGS];
-    virga_fluid_step_gpu step;
-    fill_step(fluid, dt_s, &step);
     recording r = {fluid, context, cmd};
-    r.offset = virga_ring_push(context, &fluid->step_ring, &step, sizeof step);
+    r.offsets[0] = virga_ring_push(context, &fluid->step_ring, step, sizeof *step);
+    r.offsets[1] = virga_ring_push(context, &fluid->shape_ring, shapes, sizeof *shapes);
     virga_effect_bound(&fluid->base, fluid->bindings, bound);
     r.set = virga_bindings_write(context, fluid->bindings, 0, bound);
     virga_effect_bound(&fluid->base, fluid->grid.bindings, bound);
@@ -244,9 +263,15 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     virga_effect_first_contents(&fluid->base, cmd);
     begin_state(fluid, cmd, info->dt_s);
     add_all(fluid, cmd, info);
+    virga_fluid_step_gpu step;
+    virga_fluid_shapes_gpu shapes;
+    fill_step(fluid, info->dt_s, &step);
+    fluid_send_bodies(fluid, cmd, info->dt_s, &step, &shapes);
     fluid->step_particles[context->ring_slot] = fluid->particles;
-    if (fluid->particles && info->dt_s > 0)
-        run_substeps(fluid, cmd, info->dt_s);
+    if ((fluid->particles || fluid->body_count) && info->dt_s > 0)
+        run_substeps(fluid, cmd, &step, &shapes);
+    virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->body_states, 0, offsetof(fluid_readback, bodies),
+                                 sizeof(virga_fluid_body_gpu) * VIRGA_FLUID_MAX_BODIES);
     virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->state, 0, offsetof(fluid_readback, state),
                                  sizeof(virga_fluid_state_gpu));
     return virga_check_uploads(context);

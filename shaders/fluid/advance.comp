@@ -1,17 +1,19 @@
-// advance.comp - moves the particles with their new velocities, and keeps them in the box. The pressure for the host is
+// advance.comp - moves the particles with their new velocities, and keeps them in the box and out of bodies. The pressure for the host is
 // that which acts between the particles (the virial of their forces), a mean over each of them and its neighbours:
 //
 //     P_i = 1/3 (sum_j (p_i + p_j) / 2 V |x_ij . grad W| + p_i (the walls' part of this sum)).
 //
-// One invocation per sorted particle. Reads: moved, positions, sorted, lists, solved. Writes: particles,
-// slot_pressures, state.max_speed2.
+// One invocation per sorted particle. Reads: moved, positions, sorted, lists, solved, bodies, maps. Writes: particles,
+// slot_pressures, touches, state.max_speed2.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define FLUID_ACCESS
 #define STATE_ACCESS
 #define PARTICLES_ACCESS
+#define TOUCHES_ACCESS
 #include "fluid.glsl"
+#include "bodies.glsl"
 #include "kernel.glsl"
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
@@ -44,11 +46,30 @@ float mean_pressure(uint i, float wall_pull)
     return (0.5 * KERNEL_FACTOR * sum + own.w * wall_pull) / 3.0;
 }
 
+// A particle that came into a body is put back to its surface, and loses the velocity into it. The body gets that.
+void leave_body(uint touch, inout vec3 p, inout vec3 velocity)
+{
+    const uint body = touches[touch].w;
+    if (body == NO_BODY)
+        return;
+    vec3 given = vec3(0.0);
+    const Near near = near_body(body, p);
+    if (near.distance < 0.0) {
+        p -= frame.spacing_m * near.distance * near.normal;
+        given = min(dot(velocity - body_velocity(body, p), near.normal), 0.0) * near.normal;
+        velocity -= given;
+    }
+    touches[touch].xyz = floatBitsToUint(given);
+}
+
 // Returns the square of the particle's speed.
 float advance(uint i, vec3 velocity)
 {
     const uint slot = sorted_indices[i];
-    const vec3 free = to_vec(particles[slot].position) + state.dt_s * velocity;
+    vec3 free = to_vec(particles[slot].position) + state.dt_s * velocity;
+    if (WITH_BODIES)
+        for (uint k = 0u; k < VIRGA_FLUID_TOUCHES; k++)
+            leave_body(VIRGA_FLUID_TOUCHES * i + k, free, velocity);
     const vec3 p = clamp(free, to_vec(frame.low_m), to_vec(frame.high_m));
     velocity = mix(velocity, vec3(0.0), notEqual(free, p));
     for (uint axis = 0u; axis < 3u; axis++) {

@@ -17,7 +17,7 @@ uint[3] groups(bool on, uint items, uint each) { return uint[3](on ? (items + ea
 // divided evenly, and the last of max_substeps takes whatever is left.
 float substep_time()
 {
-    const float speed = sqrt(uintBitsToFloat(state.max_speed2)) +
+    const float speed = max(sqrt(uintBitsToFloat(state.max_speed2)), frame.body_speed_m_s) +
                         sqrt(20.0 * length(to_vec(frame.gravity_m_s2)) * frame.spacing_m);
     const uint left = frame.max_substeps - min(state.substeps, frame.max_substeps - 1u);
     const float wanted = state.time_left_s * speed * frame.inv_spacing_m / frame.cfl;
@@ -34,9 +34,11 @@ void main()
     state.time_left_s = last ? 0.0 : state.time_left_s - dt;
     state.substeps += on ? 1u : 0u;
     if (on)
-        state.max_speed2 = 0u;
+        state.max_speed2 = state.moved = 0u;
     state.slot_groups = groups(on, frame.particles, VIRGA_FLUID_LANES);
     state.fluid_groups = state.loop_groups = state.loop_one_group = groups(false, 0u, 1u); // see copy.comp
+    state.body_groups = groups(on, frame.bodies, 1u);
+    state.loop_body_groups = groups(false, 0u, 1u);
     grid.first = frame.first_cell;
     grid.dims = frame.dims;
     grid.cells = cells;

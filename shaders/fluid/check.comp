@@ -21,5 +21,5 @@ void main()
     state.iterations++;
     state.solver_error = error;
     if (state.iteration >= MIN_ITERATIONS && error <= frame.solver_error)
-        state.loop_groups = state.loop_one_group = uint[3](0u, 1u, 1u);
+        state.loop_groups = state.loop_one_group = state.loop_body_groups = uint[3](0u, 1u, 1u);
 }

@@ -17,6 +17,7 @@ void main()
     if (i == 0u) {
         state.fluid_groups = state.loop_groups = grid.sorted_groups;
         state.loop_one_group = uint[3](1u, 1u, 1u);
+        state.loop_body_groups = state.body_groups;
         state.error = state.iteration = 0u;
         state.moved = grid.sorted;
     }

@@ -18,7 +18,7 @@
 // see Beck and Teboulle 2009, A Fast Iterative Shrinkage-Thresholding Algorithm). Without it pressure takes as many
 // iterations as the square of the depth in particles to arrive at the floor; with it, as the depth.
 //
-// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, solved. Writes: positions,
+// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, touches, bodies, solved. Writes: positions,
 // solved, state.error.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -26,6 +26,7 @@
 #define FLUID_ACCESS
 #define STATE_ACCESS
 #include "fluid.glsl"
+#include "bodies.glsl"
 #include "kernel.glsl"
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
@@ -45,6 +46,18 @@ void pair(uint j)
     sum += slope(dot(apart, apart)) * dot(velocity - moved_at(j).xyz, apart);
 }
 
+// What the density grows by as bodies move towards the particle, over the same as below.
+float approach(uint i)
+{
+    float approaching = 0.0;
+    for (uint k = 0u; k < VIRGA_FLUID_TOUCHES; k++) {
+        const uvec4 touch = touch_texel(VIRGA_FLUID_TOUCHES * i + k);
+        if (touch.w != NO_BODY)
+            approaching -= dot(body_velocity(touch.w, frame.spacing_m * here), uintBitsToFloat(touch.xyz));
+    }
+    return approaching;
+}
+
 // What the density grows by in the substep.
 float growth(uint i, uint texels, vec4 wall)
 {
@@ -56,7 +69,10 @@ float growth(uint i, uint texels, vec4 wall)
         pair(four.z);
         pair(four.w);
     }
-    return state.dt_s * frame.inv_spacing_m * (KERNEL_FACTOR * sum + dot(velocity, wall.xyz));
+    float walls = dot(velocity, wall.xyz);
+    if (WITH_BODIES)
+        walls += approach(i);
+    return state.dt_s * frame.inv_spacing_m * (KERNEL_FACTOR * sum + walls);
 }
 
 // Improves the pressure of a particle, and returns its error.

@@ -5,7 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "fluid.glsl"
+#define VIRGA_GLSL
+#include "shared/fluid_gpu.h"
+#define GRID_STEP virga_fluid_step_gpu
+#include "particles/grid.glsl"
 #include "particles/tickets.glsl"
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;

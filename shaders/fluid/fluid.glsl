@@ -7,6 +7,9 @@
 #include "particles/grid.glsl"
 #include "gpu/texels.glsl"
 
+layout(constant_id = 0) const uint FORM = 0u;
+const bool WITH_BODIES = (FORM & VIRGA_FLUID_FORM_BODIES) != 0u;
+
 #ifndef STATE_ACCESS
 #define STATE_ACCESS readonly
 #endif

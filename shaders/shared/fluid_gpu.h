@@ -2,6 +2,7 @@
 #ifndef VIRGA_SHARED_FLUID_GPU_H
 #define VIRGA_SHARED_FLUID_GPU_H
 
+#include "fluid_body.h"
 #include "particle_grid.h"
 
 #ifndef VIRGA_GLSL
@@ -9,6 +10,8 @@
 typedef struct virga_fluid_step_gpu virga_fluid_step_gpu;
 typedef struct virga_fluid_add_gpu virga_fluid_add_gpu;
 typedef struct virga_fluid_state_gpu virga_fluid_state_gpu;
+typedef struct virga_fluid_shape_gpu virga_fluid_shape_gpu;
+typedef struct virga_fluid_shapes_gpu virga_fluid_shapes_gpu;
 #endif
 
 #define VIRGA_FLUID_LANES       VIRGA_GRID_LANES
@@ -18,6 +21,15 @@ typedef struct virga_fluid_state_gpu virga_fluid_state_gpu;
 #define VIRGA_FLUID_ERROR_ONE   1048576.0
 #define VIRGA_FLUID_ERROR_MAX   262144u /* of one particle */
 #define VIRGA_FLUID_ERROR_SHIFT 8u      /* from a workgroup's sum to the sum of all */
+
+/* Bits of the specialisation constant 0 of all passes. */
+#define VIRGA_FLUID_FORM_BODIES 1u
+
+/* Maps of bodies, see fluid/body_mesh.h. */
+#define VIRGA_FLUID_MAP_GRADIENT 4.0 /* largest gradient (1 / spacing) */
+#define VIRGA_FLUID_MAP_REACH    2.5 /* largest distance (spacings) */
+#define VIRGA_FLUID_BODY_POINTS  64  /* of a body, that the walls of the box stop */
+#define VIRGA_FLUID_TOUCHES      2   /* bodies that act on a particle at once */
 
 /* One step. Lengths in m, where nothing else is said. The first members are those of virga_particle_step_gpu. */
 struct virga_fluid_step_gpu {
@@ -38,6 +50,30 @@ struct virga_fluid_step_gpu {
     int first_cell[3];  /* of the grid */
     uint dims[3];
     uint stride; /* of the lists of neighbours: texels from one to the next of a particle */
+    uint bodies;
+    uint max_contacts;     /* of each body */
+    float body_speed_m_s; /* of the fastest driven body */
+};
+
+/* What does not change of a body. Lengths in m, in the axes of its mesh, from its center of mass. */
+struct virga_fluid_shape_gpu {
+    float low[3]; /* first node of its map */
+    float inv_node_m;
+    uint dims[3]; /* nodes */
+    uint first_node;
+    float center[3];      /* of mass, from the mesh's origin */
+    float inv_mass;       /* mass of a particle over its own; 0: driven by the host */
+    float inertia[6];     /* over the mass of a particle (m^2): xx, yy, zz, xy, xz, yz */
+    float inv_inertia[6]; /* its inverse */
+    float response;       /* how much it yields to a particle's pressure, see neighbours.comp */
+    float radius_m;       /* of the ball that holds its map */
+    float friction;       /* on the walls of the box */
+    uint first_point;     /* after the nodes of all bodies: position and 0 */
+    uint points;
+};
+
+struct virga_fluid_shapes_gpu {
+    virga_fluid_shape_gpu of[VIRGA_FLUID_MAX_BODIES];
 };
 
 /* Particles that are added before a step: a block of them, or those of a host's buffer. */
@@ -66,13 +102,16 @@ struct virga_fluid_state_gpu {
     uint fluid_groups[3]; /* an invocation for each sorted particle */
     uint loop_groups[3];  /* the same, 0 when iterations have ended */
     uint loop_one_group[3];
+    uint body_groups[3];      /* a workgroup for each body */
+    uint loop_body_groups[3]; /* the same, 0 when iterations have ended */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_OFFSET(virga_fluid_step_gpu, spacing_m, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 108);
+VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 120);
 VIRGA_ASSERT_SIZE(virga_fluid_add_gpu, 52);
-VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 84);
+VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 108);
+VIRGA_ASSERT_SIZE(virga_fluid_shape_gpu, 116);
 #undef uint
 #endif
 

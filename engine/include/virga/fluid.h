@@ -25,6 +25,7 @@
 #ifndef VIRGA_FLUID_H
 #define VIRGA_FLUID_H
 
+#include <virga/shared/fluid_body.h>
 #include <virga/shared/particle.h>
 #include <virga/vulkan.h>
 
@@ -51,6 +52,18 @@ typedef struct virga_fluid_def {
     /* [1; 100] iterations of the solver in a substep. Each that is recorded and not needed costs about 0.02 ms there.
      * Water that is deeper than this many particles takes some substeps to feel its weight. Default 20. */
     uint32_t max_iterations;
+
+    /* [0; VIRGA_FLUID_MAX_BODIES] bodies. With them each particle has 32 bytes more. Default 0. */
+    uint32_t max_bodies;
+
+    /* [4096; 16777216] nodes of the maps of all bodies, 16 bytes each on the device, as much on the host, and as much
+     * while they are uploaded. A body has nodes half a spacing apart in a box that is five spacings larger than itself
+     * on each axis. Default 262144. */
+    uint32_t max_body_nodes;
+
+    /* [256; 1048576] particles that act on a body at once, those within two spacings of its surface; 4 bytes for each
+     * of VIRGA_FLUID_MAX_BODIES bodies. Further ones do not push it. Default 16384. */
+    uint32_t max_contacts;
 } virga_fluid_def;
 
 VIRGA_API virga_fluid_def virga_default_fluid_def(void);
@@ -125,8 +138,71 @@ typedef struct virga_fluid_block {
  * particles, one block too many, or more particles than there is room for. */
 VIRGA_API virga_result virga_fluid_add(virga_fluid *fluid, const virga_fluid_block *block);
 
-/* Removes all water, also blocks that were not yet added. The next particle has the id 0 again. */
+/* Removes all water, also blocks that were not yet added, and all bodies. The next particle has the id 0 again. */
 VIRGA_API virga_result virga_fluid_clear(virga_fluid *fluid);
+
+/* ---- bodies
+ *
+ * A body is a closed triangle mesh. Water is kept out of it and pushed by it; a body with a density is pushed back, and
+ * falls, floats, turns and sinks. The walls of the box stop it, other bodies do not. Its surface lets water slide.
+ *
+ * When a body is added, the solver makes a map of it: how much of a kernel's volume is in the body, wherever a particle
+ * may come near it (volume maps, Bender et al. 2019). Particles on the surface (Akinci et al. 2012) would have to be
+ * sorted in each substep, and they make flat faces rough. */
+
+typedef struct virga_fluid_body {
+    /* Triangles: three floats at the start of each vertex, `stride` bytes apart, and three indices for each triangle.
+     * Wound either way, but all the same way, and without holes. Parts may overlap. At least a spacing thick where it
+     * is to keep water out. Copied. */
+    const float *positions;
+    uint32_t stride, vertex_count;
+    const uint32_t *indices;
+    uint32_t index_count;
+
+    /* [0.05; 100] over that of water (specific gravity). 0: the host drives it, and water does not move it. */
+    float density;
+
+    /* [0; 10] of Coulomb's friction on the walls of the box. */
+    float friction;
+
+    /* [-10000; 10000] where the mesh's origin is (m), and how it is turned: a quaternion x, y, z, w; all zero: not. */
+    float position_m[3], rotation[4];
+
+    /* [-1000; 1000] of its centre of mass (m/s), and [-100; 100] about the axes of the world (rad/s). Not read for a
+     * body that the host drives. */
+    float velocity_m_s[3], spin_rad_s[3];
+} virga_fluid_body;
+
+/* Adds a body in the next step, and sets *index to its number. Water that is there already is pushed out. The mesh is
+ * turned into a map here: it takes some milliseconds for a cube, and up to some seconds for ten thousand triangles. Its
+ * memory comes from the host's callbacks. settings.spacing_m cannot change while there are bodies.
+ *
+ * VIRGA_ERROR_INVALID, with a line in the log: a value out of its range, one body or node too many, a mesh with holes,
+ * or one thinner than its map can show. VIRGA_ERROR_OUT_OF_MEMORY. */
+VIRGA_API virga_result virga_fluid_body_add(virga_fluid *fluid, const virga_fluid_body *body, uint32_t *index);
+
+/* Where a body is. */
+typedef struct virga_fluid_pose {
+    /* Of the mesh's origin (m), and the turn of the mesh, a quaternion x, y, z, w. */
+    float position_m[3], rotation[4];
+
+    /* Of its centre of mass (m/s), and about the axes of the world (rad/s). */
+    float velocity_m_s[3], spin_rad_s[3];
+
+    /* Where its centre of mass is (m). */
+    float center_m[3];
+
+    /* The frame whose step left it there; 0: it was not stepped yet. */
+    uint64_t frame_index;
+} virga_fluid_pose;
+
+/* (a body without density) Where the body is at the end of the next step; position_m and rotation are read. It moves
+ * there evenly. A body that would be faster than 100 m/s or 100 rad/s is put there without a push. Without a call it
+ * stays. VIRGA_ERROR_INVALID: no such body, one with density, or a number that is not finite. */
+VIRGA_API virga_result virga_fluid_body_drive(virga_fluid *fluid, uint32_t index, const virga_fluid_pose *pose);
+
+/* Reads where a body is, by the newest completed frame. False: there is no such body. */
+VIRGA_API bool virga_fluid_body_get(virga_fluid *fluid, uint32_t index, virga_fluid_pose *pose);
 
 /* Arguments of one step. */
 typedef struct virga_fluid_step_info {
@@ -161,6 +237,10 @@ VIRGA_API void virga_fluid_particles(const virga_fluid *fluid, virga_fluid_buffe
  * solver's own, with which the next substep begins. Ready to be read by transfers and compute shaders. */
 VIRGA_API void virga_fluid_pressures(const virga_fluid *fluid, virga_fluid_buffer *pressures);
 
+/* Reads where the bodies are: VIRGA_FLUID_MAX_BODIES virga_fluid_body_gpu, as the newest step left them; for hosts that
+ * draw a body in the frame of its step. Ready to be read by transfers and compute shaders. Size 0: there are none. */
+VIRGA_API void virga_fluid_bodies(const virga_fluid *fluid, virga_fluid_buffer *bodies);
+
 /* The newest statistics of completed frames. */
 typedef struct virga_fluid_stats {
     /* 0: none yet. */
@@ -177,6 +257,9 @@ typedef struct virga_fluid_stats {
 
     /* Speed of the fastest particle after the step (m/s). */
     float max_speed_m_s;
+
+    /* Particles that touched bodies in the last substep, and those that found no room (def.max_contacts). */
+    uint32_t contacts, contacts_dropped;
 } virga_fluid_stats;
 
 VIRGA_API void virga_fluid_stats_get(virga_fluid *fluid, virga_fluid_stats *stats);
