@@ -114,9 +114,9 @@ static double distance2_to_triangle(const triangle *t, const double p[3])
     const double b = area2 > 0 ? (vv * wu - uv * wv) / area2 : -1, c = area2 > 0 ? (uu * wv - uv * wu) / area2 : -1;
     if (b >= 0 && c >= 0 && b + c <= 1)
         return fmax(dot3(w, w) - b * wu - c * wv, 0);
-    return fmin(distance2_to_edge(t->corners[0], t->corners[1], p),
-                fmin(distance2_to_edge(t->corners[1], t->corners[2], p),
-                     distance2_to_edge(t->corners[2], t->corners[0], p)));
+    return fmin(
+        distance2_to_edge(t->corners[0], t->corners[1], p),
+        fmin(distance2_to_edge(t->corners[1], t->corners[2], p), distance2_to_edge(t->corners[2], t->corners[0], p)));
 }
 
 /* Nodes of an axis that are within the reach of a triangle. */

@@ -70,8 +70,7 @@ static void add_tetrahedron(double c[3][3], body_mass *mass, double moments[6])
     }
     for (int k = 0; k < 6; k++) {
         const int i = pairs[k][0], j = pairs[k][1];
-        moments[k] +=
-            volume * (c[0][i] * c[0][j] + c[1][i] * c[1][j] + c[2][i] * c[2][j] + s[i] * s[j]) / 20;
+        moments[k] += volume * (c[0][i] * c[0][j] + c[1][i] * c[1][j] + c[2][i] * c[2][j] + s[i] * s[j]) / 20;
     }
 }
 

@@ -62,7 +62,16 @@ static virga_result fit_device(const virga_context *context, void *given)
 
 /* ---- resources */
 
-enum { COUNT_PARTICLES = 1, COUNT_CELLS, COUNT_SCAN_GROUPS, COUNT_LIST_TEXELS, COUNT_BLOCKS, COUNT_CONTACTS, COUNT_TOUCHES, COUNT_NODES };
+enum {
+    COUNT_PARTICLES = 1,
+    COUNT_CELLS,
+    COUNT_SCAN_GROUPS,
+    COUNT_LIST_TEXELS,
+    COUNT_BLOCKS,
+    COUNT_CONTACTS,
+    COUNT_TOUCHES,
+    COUNT_NODES
+};
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
@@ -117,31 +126,31 @@ static const virga_binding_kind add_bindings[] = {
 };
 
 static const virga_binding_kind bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_fluid_step_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                                 /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(body_states)},                           /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                        /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(positions)},                             /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(walls)},                                 /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(lists)},                                 /* 14 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(positions)},                              /* 17 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                  /* 18 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                  /* 19 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                  /* 20 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(touches)},                               /* 21 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(touches)},                                /* 22 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(maps)},                                  /* 23 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(maps)},                                   /* 24 */
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_fluid_step_gpu)},    /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                    /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                                    /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                               /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                         /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                              /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                      /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(body_states)},                              /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                           /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                   /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                   /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(positions)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                    /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(walls)},                                    /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 14 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                               /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                    /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(positions)},                                 /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                     /* 18 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                     /* 19 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                     /* 20 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(touches)},                                  /* 21 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(touches)},                                   /* 22 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(maps)},                                     /* 23 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(maps)},                                      /* 24 */
     {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(shape_ring), sizeof(virga_fluid_shapes_gpu)}, /* 25 */
 };
 

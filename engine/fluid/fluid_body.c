@@ -124,8 +124,9 @@ static virga_result check_mesh(const virga_log *log, const virga_fluid_body *bod
 {
     if (!body->positions || !body->indices || body->index_count < 12 || body->index_count % 3 ||
         body->index_count > 30000000 || body->stride < 12 || body->stride % 4)
-        return virga_wrong_argument(log, "fluid_body: expected vertices and at least four triangles, got %u indices, "
-                                         "and %u bytes for a vertex",
+        return virga_wrong_argument(log,
+                                    "fluid_body: expected vertices and at least four triangles, got %u indices, "
+                                    "and %u bytes for a vertex",
                                     body->index_count, body->stride);
     for (uint32_t i = 0; i < body->index_count; i++) {
         float at[3];

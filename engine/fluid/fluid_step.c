@@ -106,8 +106,8 @@ typedef struct recording {
 
 static void bind(const recording *r, const virga_bindings *bindings, VkDescriptorSet set)
 {
-    virga_bind(r->context, r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, set, bindings == r->fluid->bindings ? 2 : 1,
-               r->offsets);
+    virga_bind(r->context, r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, set,
+               bindings == r->fluid->bindings ? 2 : 1, r->offsets);
 }
 
 /* Dispatches with arguments of the state. */

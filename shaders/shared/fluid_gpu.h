@@ -51,7 +51,7 @@ struct virga_fluid_step_gpu {
     uint dims[3];
     uint stride; /* of the lists of neighbours: texels from one to the next of a particle */
     uint bodies;
-    uint max_contacts;     /* of each body */
+    uint max_contacts;    /* of each body */
     float body_speed_m_s; /* of the fastest driven body */
 };
 

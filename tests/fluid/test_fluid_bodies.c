@@ -43,6 +43,107 @@ static double total_energy(double side, double density)
 
 /* ---- */
 
+static double kernel(double q)
+{
+    return (pow(fmax(2 - q, 0), 3) - 4 * pow(fmax(1 - q, 0), 3)) / (4 * M_PI);
+}
+
+/* The kernel's integral over the planes half a spacing and one and a half behind a wall at the distance z. */
+static double layers(double z)
+{
+    double sum = 0;
+    for (int i = 0; i < 4000; i++) {
+        const double r = 2 * (i + 0.5) / 4000, ring = 2 * M_PI * r * 2 / 4000;
+        sum += (kernel(hypot(z + 0.5, r)) + kernel(hypot(z + 1.5, r))) * ring;
+    }
+    return sum;
+}
+
+static double half_word(uint32_t word, int which)
+{
+    return (double)(int16_t)(word >> (16 * which) & 0xffff) / 32767;
+}
+
+/* Nodes over the middle of a face have what the walls of the box have; those over an edge have less. */
+static void a_flat_face_is_a_wall(void **state)
+{
+    (void)state;
+    const double d = 0.1;
+    const box_mesh box = box_of(1, 1, 1);
+    const body_mesh mesh = {box.corners[0], sizeof box.corners[0], 8, cube_indices, 36};
+    body_mass mass;
+    body_map map;
+    body_mass_of(&mesh, &mass);
+    assert_float_equal(mass.volume, 1, 1e-6);
+    assert_float_equal(mass.area, 6, 1e-6);
+    for (int k = 0; k < 6; k++)
+        assert_float_equal(mass.inertia[k], k < 3 ? 1.0 / 6 : 0, 1e-6);
+    const uint64_t count = body_map_size(&mass, d, &map);
+    uint32_t(*nodes)[4] = calloc(count, sizeof *nodes);
+    void *memory = calloc(1, body_map_bytes(&mesh, &map));
+    REQUIRE(nodes && memory);
+    assert_int_equal(body_map_fill(&mesh, &mass, &map, d, memory, nodes), BODY_MAP_DONE);
+    const uint32_t half = map.dims[0] / 2;
+    for (uint32_t x = 0; x < 6; x++) {
+        const uint32_t *node = nodes[(half * map.dims[1] + half) * map.dims[0] + x];
+        const double z = (-0.5 - (map.low[0] + x * map.node)) / d;
+        const double slope = z > 0 ? (layers(z + 1e-3) - layers(fmax(z - 1e-3, 0))) / 1e-3 : 0;
+        float distance;
+        memcpy(&distance, &node[2], sizeof distance);
+        assert_float_equal(distance, fmin(z, VIRGA_FLUID_MAP_REACH), 1e-5);
+        assert_float_equal(half_word(node[1], 1), layers(fmax(z, 0)), 1e-3);
+        if (z > 0.01)
+            assert_float_equal(VIRGA_FLUID_MAP_GRADIENT * half_word(node[0], 0), -slope, 5e-3);
+    }
+    const uint32_t edge = (uint32_t)((-0.5 - map.low[0]) / map.node + 0.5);
+    const uint32_t *at_edge = nodes[(half * map.dims[1] + edge) * map.dims[0] + edge];
+    REQUIRE(half_word(at_edge[1], 1) <= layers(0) + 1e-3);
+    const uint32_t *off_edge = nodes[(half * map.dims[1] + edge - 1) * map.dims[0] + edge - 1];
+    REQUIRE(half_word(off_edge[1], 1) < 0.5 * layers(M_SQRT1_2));
+    free(nodes);
+    free(memory);
+}
+
+static void wrong_bodies_are_refused(void **state)
+{
+    (void)state;
+    const box_mesh box = box_of(0.2, 0.2, 0.2), sheet = box_of(0.2, 0.2, 0.002), huge = box_of(50, 50, 50);
+    virga_fluid_pose pose = {.rotation = {0, 0, 0, 1}};
+    uint32_t index = 7;
+    body_fixture_open(&f);
+    fluid_fixture_box(&f, 0.04, 0.6, 0.6, 0.6);
+    const virga_fluid_body good = body_of(&box, 1, 0.3, 0.3, 0.3);
+    virga_fluid_body wrong = good;
+    wrong.index_count = 33; /* a hole */
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    wrong = body_of(&sheet, 1, 0.3, 0.3, 0.3);
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    wrong = body_of(&huge, 1, 0.3, 0.3, 0.3);
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    wrong = good;
+    wrong.density = 0.01f;
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    wrong = good;
+    wrong.position_m[1] = NAN;
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    wrong = good;
+    wrong.vertex_count = 7;
+    assert_int_equal(virga_fluid_body_add(f.fluid, &wrong, &index), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_fluid_body_add(f.fluid, NULL, &index), VIRGA_ERROR_INVALID);
+    assert_int_equal(index, 7);
+    assert_int_equal(virga_fluid_body_add(f.fluid, &good, &index), VIRGA_OK);
+    assert_int_equal(virga_fluid_body_add(f.fluid, &good, NULL), VIRGA_OK);
+    assert_int_equal(virga_fluid_body_add(f.fluid, &good, NULL), VIRGA_ERROR_INVALID);    /* max_bodies is 2 */
+    assert_int_equal(virga_fluid_body_drive(f.fluid, index, &pose), VIRGA_ERROR_INVALID); /* the water moves it */
+    assert_int_equal(virga_fluid_body_drive(f.fluid, 5, &pose), VIRGA_ERROR_INVALID);
+    REQUIRE(!virga_fluid_body_get(f.fluid, 5, &pose));
+    f.settings.spacing_m = 0.05f;
+    assert_int_equal(virga_fluid_set(f.fluid, &f.settings), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_fluid_clear(f.fluid), VIRGA_OK);
+    assert_int_equal(virga_fluid_set(f.fluid, &f.settings), VIRGA_OK);
+    fluid_fixture_close(&f);
+}
+
 /* Water from y = 0 to `top`, with a hole for a cube of this side in the middle, from `low` on. */
 static void fill_around(double width, double side, double low, double high, double top)
 {
@@ -139,9 +240,8 @@ static void momentum_of_water_and_a_body_is_kept(void **state)
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         after[axis] += mass * (double)pose.velocity_m_s[axis];
         spin_after[axis] +=
-            inertia * (double)pose.spin_rad_s[axis] +
-            mass * ((double)pose.center_m[u] * (double)pose.velocity_m_s[v] -
-                    (double)pose.center_m[v] * (double)pose.velocity_m_s[u]);
+            inertia * (double)pose.spin_rad_s[axis] + mass * ((double)pose.center_m[u] * (double)pose.velocity_m_s[v] -
+                                                              (double)pose.center_m[v] * (double)pose.velocity_m_s[u]);
         printf("axis %d: momentum %.3e, %.3e before; angular %.3e, %.3e before\n", axis, after[axis], before[axis],
                spin_after[axis], spin_before[axis]);
         REQUIRE(fabs(after[axis] - before[axis]) < 1e-5 * before[0]);
@@ -181,7 +281,7 @@ static void a_splash_loses_energy_in_every_step_and_no_particle_is_in_the_body(v
            "the body came down to %.3f m\n",
            worst, before / first, deepest / d, low);
     REQUIRE(worst < 1e-3);
-    REQUIRE(deepest < 0.1 * d);
+    REQUIRE(deepest < 0.2 * d); /* at corners, which the map rounds */
     REQUIRE(low < 0.12 && low >= side / 2 - 1e-4);
     fluid_fixture_close(&f);
 }
@@ -276,6 +376,8 @@ static void the_same_calls_give_the_same_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_face_is_a_wall),
+        cmocka_unit_test(wrong_bodies_are_refused),
         cmocka_unit_test(a_body_falls_freely_and_rests_on_the_floor),
         cmocka_unit_test(a_driven_body_is_where_the_host_wants_it),
         cmocka_unit_test(momentum_of_water_and_a_body_is_kept),
