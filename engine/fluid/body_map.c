@@ -1,9 +1,9 @@
 /* fluid/body_map.c - what a body means for particles near it, on a grid around it.
  *
  * Koschier and Bender (2017, Density Maps for Improved SPH Boundary Handling; Bender et al. 2019, Volume Maps) replace
- * particles on a boundary by integrals that are tabulated on a grid: nothing moves along with a body, a neighbour is not
- * needed for each of its faces, and flat faces are flat. So is it here, with what shaders/fluid/kernel.glsl has for the
- * walls of the box: at the distance z (in spacings) from a flat wall its part of the density is
+ * particles on a boundary by integrals that are tabulated on a grid: nothing moves along with a body, a neighbour is
+ * not needed for each of its faces, and flat faces are flat. So is it here, with what shaders/fluid/kernel.glsl has for
+ * the walls of the box: at the distance z (in spacings) from a flat wall its part of the density is
  *
  *     D(z) = P(z + 1/2) + P(z + 3/2).
  *

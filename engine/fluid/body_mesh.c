@@ -54,8 +54,8 @@ static void bounds_of(const body_mesh *mesh, body_mass *mass)
 
 static const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
-/* Adds the integrals of 1, x and x x over the tetrahedron of a triangle and the origin. With its corners a, b, c and s =
- * a + b + c, its volume is V = a . (b x c) / 6, the integral of x is V s / 4, and that of x_i x_j is V (a_i a_j + b_i
+/* Adds the integrals of 1, x and x x over the tetrahedron of a triangle and the origin. With its corners a, b, c and s
+ * = a + b + c, its volume is V = a . (b x c) / 6, the integral of x is V s / 4, and that of x_i x_j is V (a_i a_j + b_i
  * b_j + c_i c_j + s_i s_j) / 20. */
 static void add_tetrahedron(double c[3][3], body_mass *mass, double moments[6])
 {

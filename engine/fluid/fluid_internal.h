@@ -83,8 +83,8 @@ void fluid_grid_box(const virga_fluid_settings *settings, int32_t first[3], uint
 
 /* ---- fluid_body.c */
 
-/* Tells the device of the bodies: maps, the beginning of new ones, and of those that the host moves. Fills their part of
- * a step. */
+/* Tells the device of the bodies: maps, the beginning of new ones, and of those that the host moves. Fills their part
+ * of a step. */
 void fluid_send_bodies(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s, virga_fluid_step_gpu *step,
                        virga_fluid_shapes_gpu *shapes);
 /* The device has not executed a frame. */

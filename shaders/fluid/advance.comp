@@ -1,5 +1,6 @@
-// advance.comp - moves the particles with their new velocities, and keeps them in the box and out of bodies. The pressure for the host is
-// that which acts between the particles (the virial of their forces), a mean over each of them and its neighbours:
+// advance.comp - moves the particles with their new velocities, and keeps them in the box and out of bodies.
+// The pressure for the host is that which acts between the particles (the virial of their forces), a mean over each of
+// them and its neighbours:
 //
 //     P_i = 1/3 (sum_j (p_i + p_j) / 2 V |x_ij . grad W| + p_i (the walls' part of this sum)).
 //

@@ -1,5 +1,5 @@
-// body_contacts.comp - lists the particles that touch a body, in the order in which they are sorted, and lets gravity act
-// on the body.
+// body_contacts.comp - lists the particles that touch a body, in the order in which they are sorted, and lets gravity
+// act on the body.
 // One workgroup per body. Reads: cell_starts, touches. Writes: bodies, contacts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,8 +1,8 @@
 // body_move.comp - moves bodies with their new velocities. The walls of the box stop them, without a bounce and with
 // Coulomb's friction.
 //
-// A turning body keeps its angular momentum I w, not its angular velocity. Each of its outermost points that is behind a
-// wall and moves on gets the impulse that stops it (Guendelman et al. 2003, Nonconvex Rigid Bodies with Stacking,
+// A turning body keeps its angular momentum I w, not its angular velocity. Each of its outermost points that is behind
+// a wall and moves on gets the impulse that stops it (Guendelman et al. 2003, Nonconvex Rigid Bodies with Stacking,
 // section 5), one after the other, some times over.
 //
 // One invocation per body. Reads: maps (points). Writes: bodies, state.max_speed2.

@@ -18,8 +18,8 @@
 // see Beck and Teboulle 2009, A Fast Iterative Shrinkage-Thresholding Algorithm). Without it pressure takes as many
 // iterations as the square of the depth in particles to arrive at the floor; with it, as the depth.
 //
-// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, touches, bodies, solved. Writes: positions,
-// solved, state.error.
+// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, touches, bodies, solved. Writes:
+// positions, solved, state.error.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
