@@ -334,7 +334,7 @@ static void pack_node(const fill *f, const int64_t at[3], uint32_t node[4])
 static body_map_result fill_distances(fill *f)
 {
     const size_t count = node_count(f->map);
-    double volume = 0;
+    double deepest = 0;
     for (size_t i = 0; i < count; i++)
         f->distance[i] = (float)(f->per_spacing * VIRGA_FLUID_MAP_REACH);
     for (uint32_t i = 0; i < f->mesh->index_count / 3; i++) {
@@ -348,9 +348,9 @@ static body_map_result fill_distances(fill *f)
                 return BODY_MAP_OPEN;
     for (size_t i = 0; i < count; i++) {
         f->share[i] = (float)share_inside((double)f->distance[i]);
-        volume += (double)f->share[i];
+        deepest = fmax(deepest, -(double)f->distance[i]);
     }
-    return volume * pow(f->map->node, 3) > 0.5 * f->mass->volume ? BODY_MAP_DONE : BODY_MAP_THIN;
+    return deepest >= 0.5 ? BODY_MAP_DONE : BODY_MAP_THIN; /* nodes: a quarter of a spacing */
 }
 
 body_map_result body_map_fill(const body_mesh *mesh, const body_mass *mass, const body_map *map, double spacing,

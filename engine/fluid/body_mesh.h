@@ -47,7 +47,7 @@ typedef enum body_map_result { BODY_MAP_DONE, BODY_MAP_NO_MEMORY, BODY_MAP_OPEN,
  *   2     distance to the surface in spacings, as a float; negative inside. Not more than VIRGA_FLUID_MAP_REACH
  *   3     the sum of |x . grad W| for the pressure, as a float; see shaders/fluid/kernel.glsl
  *
- * BODY_MAP_OPEN: the mesh has holes. BODY_MAP_THIN: it is so thin that hardly any node is inside of it. `memory` is
+ * BODY_MAP_OPEN: the mesh has holes. BODY_MAP_THIN: no node is a quarter of a spacing inside of it. `memory` is
  * body_map_bytes long. Costs up to a second for ten thousand triangles. */
 body_map_result body_map_fill(const body_mesh *mesh, const body_mass *mass, const body_map *map, double spacing,
                               void *memory, uint32_t (*nodes)[4]);
