@@ -60,7 +60,6 @@ enum {
     COUNT_HEIGHT,
     COUNT_COLUMNS,
     COUNT_ROWS,
-    COUNT_TEXELS,
     COUNT_TILES,
     COUNT_APERTURE,
     COUNT_VIEWS,
@@ -74,7 +73,6 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_HEIGHT] = def->max_height;
     counts[COUNT_COLUMNS] = (def->max_width + step - 1) / step;
     counts[COUNT_ROWS] = (def->max_height + step - 1) / step;
-    counts[COUNT_TEXELS] = counts[COUNT_COLUMNS] * counts[COUNT_ROWS];
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
                           ((counts[COUNT_ROWS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE);
     counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
@@ -84,9 +82,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL, .per_view = true},
-    {"lens.spreads", AT(spreads), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TEXELS},
-    {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
-    {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
+    {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
+    {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };
 
 static const virga_effect_ring rings[] = {
@@ -99,6 +96,8 @@ static const virga_effect_image images[] = {
     {"lens.aperture", AT(aperture), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN, COUNT_APERTURE, COUNT_APERTURE, 1,
      VIRGA_FIRST_STORAGE},
     {"lens.samples", AT(samples), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
+     VIRGA_FIRST_STORAGE},
+    {"lens.spreads", AT(spreads), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
      VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
@@ -119,7 +118,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     [LENS_BIND_DEPTH] = {SAMPLED, SEEN},                                       /* 4 */
     [LENS_BIND_COLOR] = {SAMPLED, SEEN},                                       /* 5 */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                         /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                      /* 7 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(spreads)},                         /* 7 */
     {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                       /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                        /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                      /* 10 */
@@ -137,6 +136,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(spreads)}, /* 25 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -149,7 +149,8 @@ static const virga_effect_pass passes[] = {
     PASS(sample),
     PASS(tile),
     PASS(reach),
-    PASS(gather, .forms = 2),
+    PASS(gather, .forms = VIRGA_LENS_LAYERS + 1),
+    PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = VIRGA_LENS_LAYERS),
     PASS(combine),
     PASS(paper),

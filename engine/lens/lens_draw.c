@@ -200,10 +200,13 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
-    over(lens, cmd, "lens.gather", lens->gather[view->on_scene != 0], view->columns, view->rows);
-    for (uint32_t i = 0; i < view->layers; i++)
-        if (i + 1 != view->on_scene)
-            over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
+    over(lens, cmd, "lens.gather", lens->gather[view->on_scene], view->columns, view->rows);
+    for (uint32_t i = 0; i < view->layers; i++) {
+        if (i + 1 == view->on_scene)
+            continue;
+        over(lens, cmd, "lens.layers", lens->layer_sample[i], view->columns, view->rows);
+        over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
+    }
     over(lens, cmd, "lens.combine", lens->combine, view->width, view->height);
 }
 

@@ -21,7 +21,8 @@ enum {
     LENS_BIND_FIELDS,
     LENS_BIND_LAYER_COLORS = 15,
     LENS_BIND_LAYER_DEPTHS = LENS_BIND_LAYER_COLORS + VIRGA_LENS_LAYERS,
-    LENS_BINDINGS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
+    LENS_BIND_SPREADS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
+    LENS_BINDINGS,
 };
 
 /* What is known of the newest prepare of each view besides virga_effect_view. */
@@ -38,15 +39,15 @@ struct virga_lens {
     float areas[VIRGA_LENS_SPREADS];
 
     VIRGA_PER_VIEW(virga_buffer, state);
-    virga_buffer *spreads, *tiles, *reaches;
+    virga_buffer *tiles, *reaches;
     VIRGA_PER_VIEW(virga_image_2d, picture);
     VIRGA_PER_VIEW(virga_image_2d, fields);
-    virga_image_2d *aperture, *samples, *blank_depth, *blank_color;
+    virga_image_2d *aperture, *samples, *spreads, *blank_depth, *blank_color;
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
-    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather[2], *layer[VIRGA_LENS_LAYERS], *combine,
-        *paper;
+    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather[VIRGA_LENS_LAYERS + 1],
+        *layer_sample[VIRGA_LENS_LAYERS], *layer[VIRGA_LENS_LAYERS], *combine, *paper;
     virga_lens_stats stats;
 };
 

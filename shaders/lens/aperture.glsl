@@ -37,13 +37,24 @@ vec2 cats_eye_shift(vec2 texel)
     return view.cats_eye * (half_size - texel - 0.5) / length(half_size);
 }
 
-// The coverage of a texel by the image of a point, divided by the share of the aperture that the cat's eye leaves
-// there. So an even picture stays even. The disc of a lamp near a corner gains or loses up to a fifth of its light.
-float covers(ivec2 apart, float radius, ivec2 texel)
+// What the cat's eye does to the light that comes to a texel. So that an even picture stays even, light is divided by
+// the share of the aperture that is left. The disc of a lamp near a corner gains or loses up to a fifth of its light.
+struct barrel {
+    vec2 shift;       // of the second aperture, in radii
+    float per_share;  // 1 / share of the aperture that is left
+};
+
+barrel barrel_at(ivec2 texel)
 {
-    const float covered = coverage(apart, radius);
-    if (view.cats_eye == 0.0 || covered == 0.0)
-        return covered;
     const vec2 shift = cats_eye_shift(vec2(texel));
-    return min(covered, second_coverage(vec2(apart), radius, shift)) / max(lens_area(length(shift)), 0.05);
+    return barrel(shift, 1.0 / max(lens_area(length(shift)), 0.05));
 }
+
+// The coverage of a texel by the image of a point, at a position in the aperture (px).
+float covers(ivec2 apart, float radius, barrel cut)
+{
+    return min(coverage(apart, radius), second_coverage(vec2(apart), radius, cut.shift)) * cut.per_share;
+}
+
+// How far a row of a disc of some radius, at a distance from its middle, can reach to both sides.
+int row_reach(float radius, int y) { return int(sqrt(max((radius + 1.0) * (radius + 1.0) - float(y * y), 0.0))); }

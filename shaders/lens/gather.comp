@@ -16,12 +16,12 @@
 #include "pixels.glsl"
 #include "layers.glsl"
 
-layout(constant_id = 0) const uint ON_SCENE = 0u; // 1: a layer lies on the scene
+layout(constant_id = 0) const uint ON_SCENE = 0u; // 1 + the layer that lies on the scene; 0: none does
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
-layout(std430, set = 0, binding = 7) readonly buffer Spreads { float spreads[]; };
-layout(std430, set = 0, binding = 10) readonly buffer Reaches { float reaches[]; };
+layout(set = 0, binding = 25) uniform sampler2D spreads;
+layout(std430, set = 0, binding = 10) readonly buffer Reaches { vec4 reaches[]; };
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 
 #define POINT 0.5 // texels: a smaller circle of confusion is sharp
@@ -37,61 +37,93 @@ float nearness(ivec2 apart, float radius, float own)
     return own < -POINT ? 1.0 / max(share * share * share, 1.0) : 1.0;
 }
 
-// Where the blur of the layer that lies on the scene goes.
-ivec3 on_scene(ivec2 texel) { return ivec3(texel, VIRGA_LENS_FIRST_LAYER - 1u + view.on_scene); }
+// The nearest texel of the work image.
+ivec2 inside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(view.columns, view.rows) - 1); }
+
+#define LAYER_ON_SCENE (ON_SCENE - 1u)
+
+// What is gathered of a field: the scene's color and weight, and the layer on it.
+struct field_sum {
+    vec4 scene, on;
+};
+
+// Software Vulkan executes both sides of a branch, but not a loop without a turn. So each field has a loop of its own.
+field_sum gather_near(ivec2 texel, float reach, barrel cut, out float circle_sum)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const int rows = reach > POINT ? int(ceil(reach)) : -1;
+    circle_sum = 0.0;
+    for (int y = -rows; y <= rows; y++) {
+        const int columns = row_reach(reach, y);
+        for (int x = -columns; x <= columns; x++) {
+            const ivec2 apart = ivec2(x, y), from = inside(texel + apart);
+            const vec4 source = texelFetch(samples, from, 0);
+            // Seen from the source, this texel is at -apart, and the image is upside down.
+            const float weight =
+                source.a < -POINT ? covers(apart, -source.a, cut) * texelFetch(spreads, from, 0).r : 0.0;
+            sum.scene += weight * vec4(source.rgb, 1.0);
+            circle_sum += weight * source.a;
+            if (ON_SCENE != 0u)
+                sum.on += weight * layer_mean(LAYER_ON_SCENE, from);
+        }
+    }
+    return sum;
+}
+
+field_sum gather_far(ivec2 texel, float own, float reach, barrel cut)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const int rows = int(ceil(reach));
+    for (int y = -rows; y <= rows; y++) {
+        const int columns = row_reach(reach, y);
+        for (int x = -columns; x <= columns; x++) {
+            const ivec2 apart = ivec2(x, y), from = inside(texel + apart);
+            const vec4 source = texelFetch(samples, from, 0);
+            const float radius = own < -POINT ? max(source.a, -own) : min(source.a, max(own, POINT));
+            const float weight = source.a >= -POINT ? covers(-apart, radius, cut) / disc_area(max(radius, POINT)) *
+                                                          nearness(apart, source.a, own)
+                                                    : 0.0;
+            sum.scene += weight * vec4(source.rgb, 1.0);
+            if (ON_SCENE != 0u)
+                sum.on += weight * layer_mean(LAYER_ON_SCENE, from);
+        }
+    }
+    return sum;
+}
+
+void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
+{
+    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), far);
+    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
+    if (ON_SCENE != 0u)
+        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + LAYER_ON_SCENE), on);
+}
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = ivec2(view.columns, view.rows) - 1;
-    if (texel.x > last.x || texel.y > last.y)
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
     const ivec2 tile = texel / VIRGA_LENS_TILE;
-    const float farthest = reaches[tile.y * int(view.tile_columns) + tile.x];
-    const int reach = int(ceil(farthest));
+    const vec4 reach = reaches[tile.y * int(view.tile_columns) + tile.x];
     const vec4 own = texelFetch(samples, texel, 0);
-    if (farthest <= POINT) {
-        imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), vec4(own.rgb, 0.0));
-        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
-        if (ON_SCENE != 0u)
-            imageStore(fields, on_scene(texel), layer_mean(view.on_scene - 1u, texel));
+    if (max(reach.x, reach.y) <= POINT) {
+        store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE != 0u ? layer_mean(LAYER_ON_SCENE, texel) : vec4(0.0));
         return;
     }
-    vec4 far = vec4(0.0), near = vec4(0.0), far_on = vec4(0.0), near_on = vec4(0.0);
-    float near_circle = 0.0;
-    for (int y = -reach; y <= reach; y++)
-        for (int x = -reach; x <= reach; x++) {
-            const ivec2 apart = ivec2(x, y), from = clamp(texel + apart, ivec2(0), last);
-            const vec4 source = texelFetch(samples, from, 0);
-            if (source.a < -POINT) {
-                // Seen from the source, this texel is at -apart, and the image is upside down.
-                const float covered = covers(apart, -source.a, texel);
-                if (covered > 0.0) {
-                    const float weight = covered * spreads[from.y * int(view.columns) + from.x];
-                    near += weight * vec4(source.rgb, 1.0);
-                    near_circle += weight * source.a;
-                    if (ON_SCENE != 0u)
-                        near_on += weight * layer_mean(view.on_scene - 1u, from);
-                }
-            } else {
-                const float radius = own.a < -POINT ? max(source.a, -own.a) : min(source.a, max(own.a, POINT));
-                const float covered = covers(-apart, radius, texel);
-                if (covered > 0.0) {
-                    const float weight = covered / disc_area(max(radius, POINT)) * nearness(apart, source.a, own.a);
-                    far += weight * vec4(source.rgb, 1.0);
-                    if (ON_SCENE != 0u)
-                        far_on += weight * layer_mean(view.on_scene - 1u, from);
-                }
-            }
-        }
-    near_circle = near.a > 0.0 ? near_circle / near.a : 0.0;
+    const barrel cut = barrel_at(texel);
+    float circle_sum;
+    field_sum near = gather_near(texel, reach.x, cut, circle_sum);
+    // A texel behind the focus is covered by nothing wider than its own circle; behind a near one it may be any.
+    const float far_reach = own.a < -POINT ? max(reach.y, -own.a) : max(own.a, POINT);
+    const field_sum far = gather_far(texel, own.a, far_reach, cut);
+    const float near_circle = near.scene.a > 0.0 ? circle_sum / near.scene.a : 0.0;
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
-    if (near.a > 1.0 || far.a == 0.0) {
-        near_on /= near.a;
-        near /= near.a;
+    if (near.scene.a > 1.0 || far.scene.a == 0.0) {
+        near.on /= near.scene.a;
+        near.scene /= near.scene.a;
     }
-    const float per_weight = far.a > 0.0 ? 1.0 / far.a : 0.0;
-    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), vec4(far.rgb * per_weight, near_circle));
-    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
-    if (ON_SCENE != 0u)
-        imageStore(fields, on_scene(texel), near_on + (1.0 - near.a) * far_on * per_weight);
+    const float per_weight = far.scene.a > 0.0 ? 1.0 / far.scene.a : 0.0;
+    store(texel, vec4(far.scene.rgb * per_weight, near_circle), near.scene,
+          near.on + (1.0 - near.scene.a) * far.on * per_weight);
 }

@@ -1,5 +1,5 @@
-// reach.comp - how far each tile has to look for what reaches it: the largest circle of confusion of all tiles from
-// which a disc can reach into it.
+// reach.comp - how far each tile has to look for what reaches it: the largest circles of confusion, of each kind, of
+// all tiles from which such a disc can reach into it.
 // One invocation per tile. Reads: tiles. Writes: reaches.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -7,8 +7,8 @@
 #include "lens.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = 9) readonly buffer Tiles { float tiles[]; };
-layout(std430, set = 0, binding = 10) writeonly buffer Reaches { float reaches[]; };
+layout(std430, set = 0, binding = 9) readonly buffer Tiles { vec4 tiles[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer Reaches { vec4 reaches[]; };
 
 // The distance (texels) from a pixel of one tile to one of another along an axis.
 float gap(int tiles_apart) { return float(max(abs(tiles_apart) - 1, 0) * VIRGA_LENS_TILE + min(abs(tiles_apart), 1)); }
@@ -20,12 +20,12 @@ void main()
     const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
     const ivec2 own = ivec2(gl_GlobalInvocationID.x % view.tile_columns, gl_GlobalInvocationID.x / view.tile_columns);
     const int most = int(view.max_radius) / VIRGA_LENS_TILE + 1;
-    float reach = 0.0;
+    vec4 reach = vec4(0.0);
     for (int y = max(own.y - most, 0); y <= min(own.y + most, size.y - 1); y++)
         for (int x = max(own.x - most, 0); x <= min(own.x + most, size.x - 1); x++) {
-            const float radius = tiles[y * size.x + x];
-            if (radius + 1.0 >= length(vec2(gap(x - own.x), gap(y - own.y))))
-                reach = max(reach, radius);
+            const vec4 radius = tiles[y * size.x + x];
+            const vec4 apart = vec4(length(vec2(gap(x - own.x), gap(y - own.y))));
+            reach = max(reach, radius * vec4(greaterThanEqual(radius + 1.0, apart)));
         }
     reaches[gl_GlobalInvocationID.x] = reach;
 }

@@ -13,7 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 5) uniform sampler2D scene_color;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D samples;
-layout(std430, set = 0, binding = 7) writeonly buffer Spreads { float spreads[]; };
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D spreads;
 
 float circle_at(ivec2 pixel)
 {
@@ -40,5 +40,5 @@ void main()
     }
     radius /= sum.a;
     imageStore(samples, texel, vec4(sum.rgb / sum.a, radius));
-    spreads[texel.y * int(view.columns) + texel.x] = spread(radius);
+    imageStore(spreads, texel, vec4(spread(radius), radius, 0.0, 0.0));
 }

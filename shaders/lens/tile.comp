@@ -1,4 +1,5 @@
-// tile.comp - the largest circle of confusion in each tile, of the scene and of the layers.
+// tile.comp - the largest circles of confusion in each tile: of the scene in front of the focus, of the scene behind
+// it, and of the layers that have depths.
 // One workgroup per tile. Reads: samples, depths of layers. Writes: tiles.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -9,24 +10,25 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
-layout(std430, set = 0, binding = 9) writeonly buffer Tiles { float tiles[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer Tiles { vec4 tiles[]; };
 
-shared float largest[64];
+shared vec4 largest[64];
 
-float largest_at(ivec2 texel)
+vec4 largest_at(ivec2 texel)
 {
-    float radius = abs(texelFetch(samples, texel, 0).a);
+    const float radius = texelFetch(samples, texel, 0).a;
+    float layers = 0.0;
     for (uint layer = 0u; layer < view.layers; layer++)
-        if (layer + 1u != view.on_scene)
-            radius = max(radius, abs(layer_circle(layer, texel)));
-    return radius;
+        if (layer + 1u != view.on_scene && view.layer_inv_m[layer] == 0.0 && layer_mean(layer, texel) != vec4(0.0))
+            layers = max(layers, abs(layer_circle(layer, texel)));
+    return vec4(max(-radius, 0.0), max(radius, 0.0), layers, 0.0);
 }
 
 void main()
 {
     const ivec2 first = ivec2(gl_WorkGroupID.xy) * VIRGA_LENS_TILE;
     const uint lane = gl_LocalInvocationIndex;
-    float radius = 0.0;
+    vec4 radius = vec4(0.0);
     for (uint i = lane; i < VIRGA_LENS_TILE * VIRGA_LENS_TILE; i += 64u) {
         const ivec2 texel = first + ivec2(i % VIRGA_LENS_TILE, i / VIRGA_LENS_TILE);
         radius = max(radius, largest_at(min(texel, ivec2(view.columns, view.rows) - 1)));

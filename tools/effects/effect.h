@@ -91,6 +91,7 @@ typedef struct tool_moment {
     const virga_view *steady;   /* without jitter: it would bend streaks, which are smooth */
     double camera_s;            /* time on the camera's path */
     double late_s;              /* seconds before the newest tick */
+    double focus_inv_m;         /* 1 / view depth that is in focus; 0: infinity */
 } tool_moment;
 
 /* ---- virga view */

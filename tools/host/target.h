@@ -78,9 +78,9 @@ void host_target_drop_focus(host_device *device, host_target *target); /* accept
 void host_target_begin_layer_depth(const host_target *target, VkCommandBuffer cmd, host_output layer);
 void host_target_describe_layer_depth(const host_target *target, virga_target_def *def);
 
-/* After all layers: they can be sampled from now on. Then host_target_begin_focused draws outputs out of focus, and
- * host_target_end_layer ends each. */
-void host_target_read_layers(const host_target *target, VkCommandBuffer cmd);
+/* A layer can be sampled from now on. host_target_begin_focused draws outputs out of focus, and host_target_end_layer
+ * ends each. */
+void host_target_read_layer(const host_target *target, VkCommandBuffer cmd, host_output layer);
 void host_target_begin_focused(const host_target *target, VkCommandBuffer cmd, host_output output);
 virga_image host_target_layer(const host_target *target, host_output layer);
 virga_image host_target_layer_depth(const host_target *target, host_output layer);

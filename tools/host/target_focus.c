@@ -120,14 +120,12 @@ void host_target_describe_layer_depth(const host_target *target, virga_target_de
     def->depth_written = true;
 }
 
-void host_target_read_layers(const host_target *target, VkCommandBuffer cmd)
+void host_target_read_layer(const host_target *target, VkCommandBuffer cmd, host_output layer)
 {
-    for (uint32_t i = 0; i < target->layer_count; i++)
-        if (is_color(target, (host_output)(HOST_LAYER + i)))
-            host_image_barrier(cmd, &target->images[HOST_LAYER + i], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                               VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                               VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, READERS, VK_ACCESS_SHADER_READ_BIT);
+    host_image_barrier(cmd, &target->images[layer], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, READERS, VK_ACCESS_SHADER_READ_BIT);
 }
 
 void host_target_begin_focused(const host_target *target, VkCommandBuffer cmd, host_output output)

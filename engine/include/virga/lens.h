@@ -35,7 +35,7 @@ typedef struct virga_lens virga_lens; /* opaque */
 typedef struct virga_lens_def {
     uint32_t size, cookie;
 
-    /* [16; 16384] largest viewport in pixels. Memory: 84 bytes per pixel, or 27 at half resolution. Default 1920 and
+    /* [16; 16384] largest viewport in pixels. Memory: 96 bytes per pixel, or 30 at half resolution. Default 1920 and
      * 1080. */
     uint32_t max_width, max_height;
 

@@ -56,10 +56,15 @@ static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const to
     tool_moment behind = *at;
     if (!effect->shows_behind || !is_first(s, index))
         return true;
-    host_target_begin_behind(&s->target, cmd);
-    if (!draw_colors(s, cmd, index, s->layer_target, error, error_size))
-        return false;
-    view.color = host_target_behind(&s->target);
+    if (shot_lens_has_behind(s, index)) {
+        if (!shot_record_behind(s, cmd, at, &view.color, error, error_size))
+            return false;
+    } else {
+        host_target_begin_behind(&s->target, cmd);
+        if (!draw_colors(s, cmd, index, s->layer_target, error, error_size))
+            return false;
+        view.color = host_target_behind(&s->target);
+    }
     behind.jittered = &view;
     return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
 }
@@ -119,10 +124,10 @@ typedef struct sample_cameras {
 static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, const sample_cameras *cameras,
                            char *error, size_t error_size)
 {
+    shot_begin_lens(s);
     if (!prepare(s, cmd, at, error, error_size) ||
         !record_plate(s, cmd, at->camera_s, &cameras->now, &cameras->frame_ago, error, error_size) ||
-        !draw_layers(s, cmd, at, error, error_size) ||
-        !shot_record_lens(s, cmd, at, cameras->focus_inv_m, error, error_size))
+        !draw_layers(s, cmd, at, error, error_size) || !shot_record_lens(s, cmd, at, error, error_size))
         return false;
     if (!s->moving_target)
         return true;
@@ -209,8 +214,11 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
     const virga_view steady_view = look_through(s, part_s, &steady);
     const virga_view jittered_view = look_through(s, part_s, &cameras);
-    const tool_moment at = {
-        .jittered = &jittered_view, .steady = &steady_view, .camera_s = camera_s, .late_s = time_s - close_s};
+    const tool_moment at = {.jittered = &jittered_view,
+                            .steady = &steady_view,
+                            .camera_s = camera_s,
+                            .late_s = time_s - close_s,
+                            .focus_inv_m = cameras.focus_inv_m};
     return record_picture(s, cmd, &at, &cameras, error, error_size);
 }
 

@@ -9,8 +9,17 @@
 bool shot_open_lens(shot *s, char *error, size_t error_size);
 void shot_close_lens(shot *s);
 
-/* Records what the plate and the layers are out of focus, into s->target.focused. After they are drawn. */
-bool shot_record_lens(shot *s, VkCommandBuffer cmd, const tool_moment *at, double focus_inv_m, char *error,
-                      size_t error_size);
+/* Before the layers of a sub-frame are drawn. */
+void shot_begin_lens(shot *s);
+
+/* Whether a layer is the first of the last effect that shows what is behind it, with a lens. Then shot_record_behind
+ * records what the scene and the layers behind it are out of focus, and gives a picture of it. */
+bool shot_lens_has_behind(const shot *s, uint32_t layer);
+bool shot_record_behind(shot *s, VkCommandBuffer cmd, const tool_moment *at, virga_image *color, char *error,
+                        size_t error_size);
+
+/* Records what the rest is out of focus. After all layers are drawn. With both, the plate's color and the layers are in
+ * s->target.focused. */
+bool shot_record_lens(shot *s, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size);
 
 #endif

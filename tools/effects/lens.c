@@ -1,0 +1,222 @@
+/* lens.c - `virga bench lens`. The lens is the camera's: its keys are in tools/io, tools/virga/shot draws with it. */
+#include "effect.h"
+
+#include "bench/bench.h"
+#include "options.h"
+#include "progress.h"
+
+#include <virga/lens.h>
+#include <virga/shared/random.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DROPS    1000 /* on the layer, as in the paper's picture */
+#define ENOUGH_S 6.0  /* fewer runs are enough after it */
+
+typedef struct lens_case {
+    const char *what;
+    virga_lens_style style;
+    uint32_t half_resolution;
+    double radius_share; /* largest circle of confusion, as a share of the picture's height; 0: everything is sharp */
+} lens_case;
+
+static const lens_case cases[] = {
+    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02},          {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0},
+    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01},   {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02},
+    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0}, {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01},
+};
+
+static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
+
+/* What a lens reads: a street of lamps, and drops on a pane before it. */
+typedef struct pictures {
+    host_image color, depth, layer;
+    uint32_t width, height;
+} pictures;
+
+/* ---- the pictures */
+
+static void paint(float *color, float *depth, float *layer, uint32_t width, uint32_t height)
+{
+    uint32_t hash = 1;
+    for (uint32_t i = 0; i < width * height; i++) {
+        const double down = (double)(i / width) / height;
+        hash = virga_hash1(hash);
+        const bool lamp = virga_unit(hash) < 0.001f && down < 0.5;
+        depth[i] = down > 0.5 ? (float)((down - 0.5) / 1.5) : 0.02f; /* 1/m: a floor, and fronts 50 m away */
+        for (int c = 0; c < 4; c++) {
+            color[4 * i + (uint32_t)c] = c == 3 ? 1 : lamp ? 40.0f : 0.1f;
+            layer[4 * i + (uint32_t)c] = 0;
+        }
+    }
+    const int radius = (int)(height / 120);
+    for (int k = 0; k < DROPS; k++) {
+        hash = virga_hash1(hash);
+        const int column = (int)(virga_unit(hash) * (float)width);
+        hash = virga_hash1(hash);
+        const int row = (int)(virga_unit(hash) * (float)height);
+        for (int y = row - radius; y <= row + radius; y++)
+            for (int x = column - radius; x <= column + radius; x++)
+                if (x >= 0 && y >= 0 && x < (int)width && y < (int)height &&
+                    (x - column) * (x - column) + (y - row) * (y - row) <= radius * radius)
+                    for (size_t c = 0; c < 4; c++)
+                        layer[4 * ((size_t)y * width + (size_t)x) + c] = c == 3 ? 0.8f : 0.3f;
+    }
+}
+
+static bool upload(bench *b, const float *pixels, uint32_t channels, const pictures *p, host_image *image)
+{
+    const host_image_def def = {.format = channels == 1 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT,
+                                .extent = {p->width, p->height, 1},
+                                .name = "bench"};
+    return host_image_create_with(&b->device, &def, pixels, (VkDeviceSize)p->width * p->height * channels * 4,
+                                  channels * 4, image, b->error, sizeof b->error);
+}
+
+static bool open_pictures(bench *b, pictures *p)
+{
+    const size_t pixels = (size_t)p->width * p->height;
+    float *color = malloc(pixels * 16), *depth = malloc(pixels * 4), *layer = malloc(pixels * 16);
+    bool good = color && depth && layer;
+    if (good) {
+        paint(color, depth, layer, p->width, p->height);
+        good =
+            upload(b, color, 4, p, &p->color) && upload(b, depth, 1, p, &p->depth) && upload(b, layer, 4, p, &p->layer);
+    }
+    free(color);
+    free(depth);
+    free(layer);
+    return good || bench_fail(b, "pictures");
+}
+
+static void close_pictures(bench *b, pictures *p)
+{
+    host_image_destroy(&b->device, &p->color);
+    host_image_destroy(&b->device, &p->depth);
+    host_image_destroy(&b->device, &p->layer);
+}
+
+static virga_image sampled(const host_image *image)
+{
+    return (virga_image){.image = image->image,
+                         .view = image->view,
+                         .format = image->format,
+                         .before.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+/* The depth buffer is reversed and has no far plane, so that it stores 1 / view depth. */
+static virga_view view_of(const pictures *p)
+{
+    virga_view view = virga_default_view();
+    memset(view.clip_from_view, 0, sizeof view.clip_from_view);
+    view.clip_from_view[0] = 2 * (float)p->height / (float)p->width;
+    view.clip_from_view[5] = -2;
+    view.clip_from_view[11] = -1;
+    view.clip_from_view[14] = 1;
+    memcpy(view.open_clip_from_view, view.clip_from_view, sizeof view.clip_from_view);
+    view.reversed_depth = true;
+    view.viewport[2] = (float)p->width;
+    view.viewport[3] = (float)p->height;
+    view.color = sampled(&p->color);
+    view.depth = sampled(&p->depth);
+    return view;
+}
+
+/* ---- measuring */
+
+/* Time of a submission, with or without a prepare. */
+static bool time_frame(bench *b, virga_lens *lens, const pictures *p, double *ms)
+{
+    VkCommandBuffer cmd;
+    const virga_view view = view_of(p);
+    const virga_lens_layer layer = {.color = sampled(&p->layer), .depth_m = 0.3f};
+    if (!bench_begin(b, &cmd))
+        return false;
+    if (lens && virga_lens_prepare(lens, cmd, &view, &layer, 1, 0) != VIRGA_OK)
+        return options_complain("bench", "a prepare failed");
+    return bench_submit(b, ms);
+}
+
+/* The focus is on the pane, 0.3 m away, so that what is farthest is blurred by the case's share. */
+static virga_lens_settings settings_of(const lens_case *row, const pictures *p)
+{
+    virga_lens_settings settings = virga_default_lens_settings();
+    const double pixels = p->height, radius_px = row->radius_share * p->height;
+    settings.style = row->style;
+    settings.focus_m = 0.3f;
+    settings.max_radius_px = row->half_resolution ? 126 : 63;
+    /* r = A p / 2 (1 / s), A = focal / f-number, p = half the height times the cotangent, 2 */
+    settings.aperture_f =
+        radius_px > 0 ? (float)((double)settings.focal_m * pixels / (2 * radius_px * (double)settings.focus_m)) : 0;
+    return settings;
+}
+
+static bool measure(bench *b, const lens_case *row, const pictures *p, double fill_ms)
+{
+    virga_lens_def def = virga_default_lens_def();
+    virga_lens *lens = NULL;
+    double times[BENCH_RUNS], empty[BENCH_RUNS];
+    def.max_width = p->width;
+    def.max_height = p->height;
+    def.half_resolution = row->half_resolution;
+    const virga_lens_settings settings = settings_of(row, p);
+    bool good = virga_lens_create(b->context, &def, &lens) == VIRGA_OK && virga_lens_set(lens, &settings) >= VIRGA_OK &&
+                time_frame(b, lens, p, &times[0]);
+    const double start = progress_now();
+    size_t runs = 0;
+    while (good && runs < BENCH_RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
+        good = time_frame(b, NULL, p, &empty[runs]) && time_frame(b, lens, p, &times[runs]);
+        runs++;
+    }
+    virga_lens_destroy(&lens);
+    if (!good)
+        return options_complain("bench", "no lens could be measured");
+    const double ms = fmax(bench_median(times, runs) - bench_median(empty, runs), 1e-3);
+    printf("  %-16s %10.3f ms %9.1f frames/s %8.1f x a fill, median of %zu\n", row->what, ms, 1e3 / ms, ms / fill_ms,
+           runs);
+    fflush(stdout);
+    return true;
+}
+
+/* A fill of a picture of this size. */
+static bool measure_fill(bench *b, const pictures *p, double *ms)
+{
+    host_target target;
+    limits *l;
+    if (!host_target_create(&b->device, p->width, p->height, &target, b->error, sizeof b->error))
+        return bench_fail(b, "picture");
+    bool good = limits_create(&b->device, &target, 1024, &l, b->error, sizeof b->error);
+    *ms = good ? limits_fill_ms(&b->device, l, &target) : -1;
+    if (good)
+        limits_destroy(&b->device, &l);
+    host_target_destroy(&b->device, &target);
+    return *ms > 0 || bench_fail(b, "fill");
+}
+
+static bool run(bench *b, const options *parsed)
+{
+    (void)parsed;
+    printf("a street of lamps behind a pane with %d drops in focus; blur as a share of the picture's height\n", DROPS);
+    bool good = true;
+    for (size_t i = 0; good && i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++) {
+        pictures p = {.width = sizes[i][0], .height = sizes[i][1]};
+        double fill_ms;
+        good = open_pictures(b, &p) && measure_fill(b, &p, &fill_ms);
+        if (good)
+            printf("%u x %u, a fill takes %.3f ms\n", p.width, p.height, fill_ms);
+        for (size_t k = 0; good && k < sizeof cases / sizeof cases[0] && !interrupt_requested(); k++)
+            good = measure(b, &cases[k], &p, fill_ms);
+        close_pictures(b, &p);
+    }
+    return good;
+}
+
+static const tool_bench lens_bench = {
+    .help = "focus in the style of the paper and as of a lens, at half and full resolution, in three picture sizes\n",
+    .run = run,
+};
+
+const tool_effect lens_effect = {.name = "lens", .bench = &lens_bench};
