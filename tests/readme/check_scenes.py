@@ -13,7 +13,8 @@ import pages
 
 root, virga = sys.argv[1:3]
 report = pages.Report()
-REST = "virga: 1\ncamera: {keys: [{position_m: [0, 1, 0], look_at_m: [0, 1, -5]}]}\n"
+VERSION = "virga: 1\n"
+CAMERA = "camera: {keys: [{position_m: [0, 1, 0], look_at_m: [0, 1, -5]}]}\n" # for parts without one
 
 NO_PARTICLES = ("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
                 "property float z\nend_header\n")
@@ -32,7 +33,9 @@ with tempfile.TemporaryDirectory() as work:
                     with open(f"{work}/scenes/{files % number}", "w") as file:
                         file.write(NO_PARTICLES)
             with open(scene, "w") as file:
-                file.write(block if block.startswith("virga:") else REST + block)
+                if not block.startswith("virga:"):
+                    file.write(VERSION + ("" if block.startswith("camera:") else CAMERA))
+                file.write(block)
             said = subprocess.run([virga, "check", scene], capture_output=True, text=True)
             report.expect(said.returncode == 0, f"{page}: {said.stderr.strip()}")
 
