@@ -37,14 +37,33 @@ static bool create_lens(shot *s, virga_lens **lens, char *error, size_t error_si
            shot_ok(s, virga_lens_attach(*lens, s->layer_target), "building a lens", error, error_size);
 }
 
+/* Whether no layer before this one is of the same effect. */
+static bool is_first(const shot *s, uint32_t index)
+{
+    for (uint32_t i = 0; i < index; i++)
+        if (s->layers[i].effect == s->layers[index].effect)
+            return false;
+    return true;
+}
+
 /* The first layer of the last effect that shows what is behind it; 0: there is none, or nothing is behind it. */
 static uint32_t find_front(const shot *s)
 {
     uint32_t first = 0;
     for (uint32_t i = 1; i < s->layer_count; i++)
-        if (tool_effects[s->layers[i].effect]->shows_behind && s->layers[i].effect != s->layers[i - 1].effect)
+        if (tool_effects[s->layers[i].effect]->shows_behind && is_first(s, i))
             first = i;
     return first;
+}
+
+static bool check_count(const shot *s, uint32_t first, uint32_t end, char *error, size_t error_size)
+{
+    uint32_t colors = 0;
+    for (uint32_t i = first; i < end; i++)
+        colors += !s->layers[i].layer->is_data;
+    return colors <= VIRGA_LENS_MAX_LAYERS ||
+           host_fail(error, error_size, "camera.aperture_f: a lens blurs %d layers, the scene has %u",
+                     VIRGA_LENS_MAX_LAYERS, colors);
 }
 
 static bool create_lenses(shot *s, char *error, size_t error_size)
@@ -75,12 +94,10 @@ bool shot_open_lens(shot *s, char *error, size_t error_size)
     s->lens = calloc(1, sizeof *s->lens);
     if (!s->lens)
         return host_fail(error, error_size, "no memory for a lens");
-    uint32_t colors = 0;
-    for (uint32_t i = 0; i < s->layer_count; i++)
-        colors += !s->layers[i].layer->is_data;
-    if (colors > VIRGA_LENS_MAX_LAYERS)
-        return host_fail(error, error_size, "camera.aperture_f: a lens blurs %d layers, the scene has %u",
-                         VIRGA_LENS_MAX_LAYERS, colors);
+    const uint32_t front = find_front(s);
+    if (!check_count(s, 0, front ? front : s->layer_count, error, error_size) ||
+        !check_count(s, front, s->layer_count, error, error_size))
+        return false;
     for (uint32_t i = 0; i < s->layer_count; i++)
         own_depths |= has_own_depth(&s->layers[i]) ? 1u << (s->layers[i].output - HOST_LAYER) : 0;
     return host_target_add_focus(&s->device, &s->target, own_depths, error, error_size) &&
