@@ -10,9 +10,10 @@ command -v "${cc%% *}" >/dev/null || { echo "internal_headers.sh: no C compiler 
 headers=$(cd "$engine" && find . -name '*.h' ! -path './include/*' | sed 's|^\./||' | sort)
 [ -n "$headers" ] || { echo "internal_headers.sh: no headers under $engine" >&2; exit 1; }
 for header in $headers; do
-    # The declaration stands for headers of macros alone, which would leave nothing to compile.
+    # The declaration stands for headers of macros alone, which would leave nothing to compile. EFFECT is for the header
+    # of the tables of effects.
     if printf '#include "%s"\nextern int alone;\n' "$header" | $cc -x c -std=gnu11 -Wall -Wextra -Werror -fsyntax-only \
-        -I"$engine" -I"$engine/include" "$@" -; then
+        -DEFFECT=rain -I"$engine" -I"$engine/include" "$@" -; then
         count=$((count + 1))
     else
         echo "internal_headers.sh: \"$header\" does not compile alone" >&2

@@ -79,6 +79,7 @@ static bool create_depth_target(shot *s, uint32_t layers, char *error, size_t er
     if (!layers)
         return true;
     host_target_describe_layer_depth(&s->target, &def);
+    def.render_pass_class = 3;
     return shot_ok(s, virga_target_create(s->context, &def, &s->lens->depth_target), "creating a target for depth",
                    error, error_size) &&
            shot_ok(s, virga_scene_attach(s->simulation, s->lens->depth_target), "building pipelines for depth", error,

@@ -63,5 +63,6 @@ bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, siz
     s->options.width = width;
     s->options.height = height;
     return shot_create_target(s, error, error_size) && shot_resize_effects(s, error, error_size) &&
-           shot_open_lens(s, error, error_size) && host_accumulator_create(&s->frame, width, height, error, error_size);
+           shot_renew_targets(s, error, error_size) && shot_open_lens(s, error, error_size) &&
+           host_accumulator_create(&s->frame, width, height, error, error_size);
 }

@@ -39,19 +39,28 @@ static bool create_target(shot *s, const virga_target_def *def, virga_target **t
            shot_ok(s, virga_scene_attach(s->simulation, *target), "building pipelines", error, error_size);
 }
 
-static bool attach_targets(shot *s, char *error, size_t error_size)
+bool shot_renew_targets(shot *s, char *error, size_t error_size)
 {
     virga_target_def layer = virga_default_target_def(), moving = virga_default_target_def();
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->attach && !tool_effects[i]->attach(s, s->states[i], error, error_size))
-            return false;
+    virga_target_destroy(&s->layer_target);
+    virga_target_destroy(&s->moving_target);
     host_target_describe_layer(&s->target, &layer);
+    layer.render_pass_class = 1; /* the render passes of all sizes are compatible */
     if (!create_target(s, &layer, &s->layer_target, error, error_size))
         return false;
     if (!s->options.water_velocity)
         return true;
     host_target_describe_moving(&s->target, &moving);
+    moving.render_pass_class = 2;
     return create_target(s, &moving, &s->moving_target, error, error_size);
+}
+
+static bool attach_targets(shot *s, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->attach && !tool_effects[i]->attach(s, s->states[i], error, error_size))
+            return false;
+    return shot_renew_targets(s, error, error_size);
 }
 
 bool shot_open_effects(shot *s, char *error, size_t error_size)
