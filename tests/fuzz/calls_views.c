@@ -109,6 +109,27 @@ void call_virga_scene_prepare_panes_view(calls *c)
 }
 
 /* Water without foam has nothing to draw. */
+void call_virga_water_draw_data(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER), target = calls_pick(c, CALLS_TARGET);
+    VkCommandBuffer cmd;
+    uint32_t flags = with_target(h, target);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_draw_data, h.object, cmd, target.object,
+                  (virga_water_data)calls_below(c, 3));
+}
+
+void call_virga_water_draw_data_view(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_WATER), target = calls_pick(c, CALLS_TARGET);
+    const virga_prepared view = some_view(c, CALLS_WATER);
+    VkCommandBuffer cmd;
+    uint32_t flags = with_target(h, target);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_water_draw_data_view, h.object, cmd, target.object, view,
+                  (virga_water_data)calls_below(c, 3));
+}
+
 void call_virga_water_draw_foam(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_WATER), target = calls_pick(c, CALLS_TARGET);

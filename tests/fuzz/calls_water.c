@@ -134,6 +134,51 @@ void call_virga_fluid_pressures(calls *c)
     CALLS_DO(c, virga_fluid_pressures, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &pressures);
 }
 
+/* ---- bodies in the fluid */
+
+/* A cube of 0.2 m. */
+static const float cube[24] = {-0.1f, -0.1f, -0.1f, 0.1f, -0.1f, -0.1f, -0.1f, 0.1f, -0.1f, 0.1f, 0.1f, -0.1f,
+                               -0.1f, -0.1f, 0.1f,  0.1f, -0.1f, 0.1f,  -0.1f, 0.1f, 0.1f,  0.1f, 0.1f, 0.1f};
+static const uint32_t cube_indices[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                          2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+
+/* What is refused depends on the definition and on the mesh, which may be wild: no result is promised. */
+void call_virga_fluid_body_add(calls *c)
+{
+    virga_fluid_body body = {
+        .density = calls_once_in(c, 2) ? 0.5f : 0, .friction = 0.4f, .position_m = {0.2f, 0.2f, 0.2f}};
+    uint32_t index;
+    CALLS_WILD_ALL(c, &body);
+    body.positions = calls_once_in(c, 8) ? NULL : cube;
+    body.indices = calls_once_in(c, 8) ? NULL : cube_indices;
+    body.stride = calls_once_in(c, 8) ? 4 : 12;
+    body.vertex_count = calls_once_in(c, 8) ? 3 : 8;
+    body.index_count = calls_once_in(c, 8) ? 33 : 36;
+    CALLS_DO(c, virga_fluid_body_add, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 20) ? NULL : &body,
+             calls_once_in(c, 8) ? NULL : &index);
+}
+
+void call_virga_fluid_body_drive(calls *c)
+{
+    virga_fluid_pose pose = {.position_m = {0.2f, 0.2f, 0.2f}};
+    CALLS_WILD_ALL(c, &pose);
+    CALLS_DO(c, virga_fluid_body_drive, calls_pick(c, CALLS_FLUID).object, calls_below(c, 4),
+             calls_once_in(c, 20) ? NULL : &pose);
+}
+
+void call_virga_fluid_body_get(calls *c)
+{
+    virga_fluid_pose pose;
+    CALLS_DO(c, virga_fluid_body_get, calls_pick(c, CALLS_FLUID).object, calls_below(c, 4),
+             calls_once_in(c, 8) ? NULL : &pose);
+}
+
+void call_virga_fluid_bodies(calls *c)
+{
+    virga_fluid_buffer bodies;
+    CALLS_DO(c, virga_fluid_bodies, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &bodies);
+}
+
 /* ---- the lens */
 
 void call_virga_lens_prepare(calls *c)

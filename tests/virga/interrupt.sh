@@ -194,7 +194,7 @@ find "$work/once" -type f -exec md5sum {} + | sort >"$work/before"
 refused 'seed 1, expected 4294967295; ' --seed 4294967295
 refused 'size 64x36, expected 32x32; ' --size 32x32
 refused 'samples 1, expected 2; ' --samples 2
-refused 'layers beauty,depth,rain,splash,velocity,normal,id,wetness,waterdepth, expected rain; ' --layers rain
+refused 'layers beauty,depth,haze,rain,splash,velocity,normal,id,wetness,waterdepth, expected rain; ' --layers rain
 refused 'water velocity \(none\), expected 50; ' --water-velocity 50
 refused 'scene hash [0-9a-f]{16}, expected [0-9a-f]{16}; ' --set rain.rate_mm_h=11
 find "$work/once" -type f -exec md5sum {} + | sort >"$work/after"

@@ -215,7 +215,7 @@ static bool run(bench *b, const options *parsed)
 }
 
 static const tool_bench lens_bench = {
-    .help = "focus in the style of the paper and as of a lens, at half and full resolution, in three picture sizes\n",
+    .help = "focus as in the paper and as of a lens, at half and full resolution, three sizes\n",
     .run = run,
 };
 
