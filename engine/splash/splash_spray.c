@@ -122,11 +122,12 @@ static virga_result check_hits(const virga_splash *splash, VkCommandBuffer cmd, 
                                     "virga_splash_give_hits: expected a list of at least %llu bytes for "
                                     "a pane below %d, got %llu bytes for pane %u",
                                     (unsigned long long)least, VIRGA_SPLASH_MAX_PANES, (unsigned long long)size, pane);
-    if (splash->base.step_frame != context->frame_index)
+    if (!context->frame_index || splash->base.step_frame != context->frame_index)
         return virga_wrong_argument(&context->log, "virga_splash_give_hits: expected virga_splash_step before it");
     if (splash->hits_frame == context->frame_index && splash->hits_given & 1u << pane)
         return virga_wrong_argument(&context->log, "virga_splash_give_hits: twice for pane %u in a frame", pane);
-    return virga_host_list_check(context, "hits", offset, size, least);
+    const virga_result listed = virga_host_list_check(context, "hits", offset, size, least);
+    return listed ? listed : virga_effect_ready(&splash->base);
 }
 
 virga_result virga_splash_give_hits(virga_splash *splash, VkCommandBuffer cmd, uint32_t pane, VkBuffer hits,

@@ -168,7 +168,6 @@ DRAWN(glass, draw, CALLS_GLASS)
 DRAWN(glass, draw_refraction, CALLS_GLASS)
 DRAWN(water, draw, CALLS_WATER)
 DRAWN(lens, draw, CALLS_LENS)
-DRAWN(scene, draw, CALLS_SCENE)
 
 /* ---- draws of parts */
 
@@ -189,4 +188,14 @@ void call_virga_lens_draw_part(calls *c)
     uint32_t flags = with_target(h, target, CALLS_RECORDS | CALLS_INSIDE);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags, virga_lens_draw_part, h.object, cmd, target.object, calls_below(c, 4));
+}
+
+/* Some effects of a scene may have recorded before one refuses. */
+void call_virga_scene_draw(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_SCENE), target = calls_pick(c, CALLS_TARGET);
+    VkCommandBuffer cmd;
+    uint32_t flags = with_target(h, target, CALLS_INSIDE);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_scene_draw, h.object, cmd, target.object);
 }
