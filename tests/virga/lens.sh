@@ -96,7 +96,7 @@ render keys --layers beauty --set "camera.focus_keys=$keys"
 frames=1
 render board --layers beauty
 render lamp --layers beauty --set camera.focus_on=lamp_b
-render there --layers beauty --set camera.focus_m=10.9
+render there --layers beauty --set "camera.focus_keys=[{time_s: 0, focus_m: 10.9}]"
 same keys 0001 board 0001 || fail "the rack focus does not begin on the board"
 same keys 0004 lamp 0001 || fail "the rack focus does not end on the lamp"
 same lamp 0001 there 0001 || fail "the lamp is not in focus 10.9 m away"

@@ -27,7 +27,7 @@ void shot_close_effects(shot *s);
 /* After shot_create_target. */
 bool shot_resize_effects(shot *s, char *error, size_t error_size);
 
-/* The library's targets, for the render passes of s->target. After a resize they share the pipelines of the old ones. */
+/* The library's targets, for the render passes of s->target. After a resize they share pipelines with the old ones. */
 bool shot_renew_targets(shot *s, char *error, size_t error_size);
 
 /* Settings of a time. */
