@@ -31,7 +31,8 @@
     X(VIRGA_LOG_IMPACTS_DROPPED, "impacts-dropped")   \
     X(VIRGA_LOG_SHRUNK, "shrunk")                     \
     X(VIRGA_LOG_NOT_DRAWN, "not-drawn")               \
-    X(VIRGA_LOG_FRAME_LOST, "frame-lost")
+    X(VIRGA_LOG_FRAME_LOST, "frame-lost")             \
+    X(VIRGA_LOG_ENCODING, "encoding")
 
 #define RESULT_CASE(value) \
     case value: {          \

@@ -49,15 +49,20 @@ virga_result virga_compute_pipeline_create(virga_context *context, const virga_c
 typedef struct constants {
     uint32_t own;         /* constant 0: of the compute shader, or of both shaders of a draw */
     VkBool32 small_views; /* constant 1: see shaders/gpu/texels.glsl */
+    VkBool32 encoded;     /* constants 2 and 3: see shaders/gpu/encode.glsl */
+    float blend_background;
 } constants;
 
 static const VkSpecializationMapEntry constant_entries[] = {
     {0, offsetof(constants, own), sizeof((constants *)0)->own},
-    {1, offsetof(constants, small_views), sizeof((constants *)0)->small_views}};
+    {1, offsetof(constants, small_views), sizeof((constants *)0)->small_views},
+    {2, offsetof(constants, encoded), sizeof((constants *)0)->encoded},
+    {3, offsetof(constants, blend_background), sizeof((constants *)0)->blend_background}};
 
 static VkSpecializationInfo specialize(const constants *values)
 {
-    return (VkSpecializationInfo){2, constant_entries, sizeof *values, values};
+    return (VkSpecializationInfo){sizeof constant_entries / sizeof constant_entries[0], constant_entries,
+                                  sizeof *values, values};
 }
 
 static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
@@ -234,7 +239,7 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
 {
     VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
     VkPipelineShaderStageCreateInfo stages[2];
-    const constants values = {def->constant, context->small_views};
+    const constants values = {def->constant, context->small_views, def->encoded, def->blend_background};
     const VkSpecializationInfo specialization = specialize(&values);
     VkResult result = module_create(context, def->vertex, &modules[0], call);
     if (result == VK_SUCCESS)

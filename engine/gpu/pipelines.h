@@ -78,6 +78,8 @@ typedef struct virga_graphics_def {
     bool cull_back;    /* counter-clockwise on the screen is the front */
     bool lines;        /* lines instead of triangles; their width is dynamic */
     uint32_t constant; /* specialisation constant 0 of both shaders, if they have one */
+    bool encoded;      /* specialisation constants 2 and 3 of the fragment shader, see shaders/gpu/encode.glsl */
+    float blend_background;
     VkSampleCountFlagBits samples;
     virga_pipeline_group *group; /* (optional) */
     const char *name;            /* static */

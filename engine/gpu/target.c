@@ -6,6 +6,7 @@
 #include "gpu/effect.h"
 #include "gpu/errors.h"
 #include "gpu/pipelines.h"
+#include "gpu/view.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,8 @@ virga_target_def virga_default_target_def(void)
                               .cookie = virga_settings_cookie("target_def"),
                               .color_count = 1,
                               .samples = VK_SAMPLE_COUNT_1_BIT,
-                              .depth_attached = true};
+                              .depth_attached = true,
+                              .blend_background = 0.18f};
 }
 
 /* Checks that this device supports the use that `what` describes, if a format is given. */
@@ -169,6 +171,50 @@ static virga_result check_pass(const virga_context *context, const virga_target_
     return result ? result : check_pass_depth(log, def, subpass);
 }
 
+/* ---- encoding */
+
+/* Formats into which hosts write colors as the screen shows them. */
+static bool is_screen_format(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R5G6B5_UNORM_PACK16:
+    case VK_FORMAT_B5G6R5_UNORM_PACK16:
+    case VK_FORMAT_R8G8B8_UNORM:
+    case VK_FORMAT_B8G8R8_UNORM:
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_A8B8G8R8_UNORM_PACK32:
+    case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
+    case VK_FORMAT_A2B10G10R10_UNORM_PACK32: return true;
+    default: return false;
+    }
+}
+
+/* The format of attachment 0, as far as it is known. The subpass was checked. */
+static VkFormat color_format_of(const virga_target_def *def)
+{
+    const VkRenderPassCreateInfo *info = def->kind == VIRGA_TARGET_RENDER_PASS ? def->render_pass_info : NULL;
+    return info ? info->pAttachments[info->pSubpasses[def->subpass].pColorAttachments[0].attachment].format
+                : def->color_formats[0];
+}
+
+static virga_result check_encoding(const virga_log *log, const virga_target_def *def)
+{
+    const VkFormat format = color_format_of(def);
+    const virga_result result = virga_encoding_check(log, "target_def.encoding", def->encoding, format);
+    if (result)
+        return result;
+    if (!(def->blend_background >= 0.0001f && def->blend_background <= 1))
+        return virga_wrong_argument(log, "target_def.blend_background: expected 0.0001 to 1, got %g",
+                                    (double)def->blend_background);
+    if (def->encoding == VIRGA_ENCODING_NOT_GIVEN && is_screen_format(format))
+        virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_ENCODING,
+                        "target_def.encoding: not given, so linear light is written into the UNORM VkFormat %d; where "
+                        "the screen shows its values as they are, rain is too dark: give VIRGA_ENCODING_SRGB",
+                        (int)format);
+    return VIRGA_OK;
+}
+
 /* ---- classes */
 
 /* The members that decide what a pipeline is like. A render pass is known by its handle only, and a handle may be given
@@ -185,6 +231,10 @@ static void fill_like(const virga_target *target, virga_target_def *like)
     like->depth_attached = def->depth_attached;
     like->depth_written = def->depth_written;
     like->reversed_depth = def->reversed_depth;
+    if (def->encoding == VIRGA_ENCODING_SRGB) {
+        like->encoding = def->encoding;
+        like->blend_background = def->blend_background;
+    }
     if (def->kind == VIRGA_TARGET_DYNAMIC) {
         memcpy(like->color_formats, def->color_formats, sizeof like->color_formats);
         like->depth_format = def->depth_format;
@@ -261,6 +311,8 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         result = check_extras(context, def);
     if (!result)
         result = check_pass(context, def);
+    if (!result)
+        result = check_encoding(&context->log, def);
     if (result)
         return result;
     virga_target *made = virga_alloc(&context->heap, sizeof *made);
@@ -315,6 +367,8 @@ virga_result virga_target_pipeline(const virga_target *target, virga_graphics_de
     def.depth_test = def.depth_test && into->depth_attached;
     def.depth_write = def.depth_test && into->depth_written;
     def.reversed_depth = into->reversed_depth;
+    def.encoded = into->encoding == VIRGA_ENCODING_SRGB;
+    def.blend_background = into->blend_background;
     if (into->kind == VIRGA_TARGET_DYNAMIC) {
         memcpy(def.color_formats, into->color_formats, sizeof def.color_formats);
         def.depth_format = into->depth_format;

@@ -100,8 +100,34 @@ static virga_result check_image(const virga_log *log, const char *name, const vi
     return VIRGA_OK;
 }
 
+static bool is_srgb_format(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R8_SRGB:
+    case VK_FORMAT_R8G8_SRGB:
+    case VK_FORMAT_R8G8B8_SRGB:
+    case VK_FORMAT_B8G8R8_SRGB:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_B8G8R8A8_SRGB:
+    case VK_FORMAT_A8B8G8R8_SRGB_PACK32: return true;
+    default: return false;
+    }
+}
+
+virga_result virga_encoding_check(const virga_log *log, const char *name, virga_encoding encoding, VkFormat format)
+{
+    if ((uint32_t)encoding > VIRGA_ENCODING_SRGB)
+        return virga_wrong_argument(log, "%s: there is no encoding %d", name, (int)encoding);
+    if (encoding == VIRGA_ENCODING_SRGB && is_srgb_format(format))
+        return virga_wrong_argument(log, "%s: expected linear, as the device converts the _SRGB VkFormat %d itself",
+                                    name, (int)format);
+    return VIRGA_OK;
+}
+
 static virga_result check_images(const virga_log *log, const virga_view *view)
 {
+    if (virga_encoding_check(log, "view.color_encoding", view->color_encoding, view->color.format))
+        return VIRGA_ERROR_INVALID;
     if (check_image(log, "depth", &view->depth) || check_image(log, "color", &view->color) ||
         check_image(log, "temporal.motion", &view->temporal.motion))
         return VIRGA_ERROR_INVALID;
@@ -274,6 +300,13 @@ static void fill_matrices(const virga_view *view, virga_view_gpu *out)
         out->open_clip_from_rel[i] = out->clip_from_rel[i] + (float)share * (open[i] - out->clip_from_rel[i]);
 }
 
+uint32_t virga_view_color_given(const virga_view *view)
+{
+    if (!view->color.view)
+        return 0;
+    return view->color_encoding == VIRGA_ENCODING_SRGB ? VIRGA_COLOR_SRGB : VIRGA_COLOR_LINEAR;
+}
+
 bool virga_view_has_previous(const virga_view *view)
 {
     for (int i = 0; i < 16; i++)
@@ -329,7 +362,7 @@ void virga_view_fill(const virga_view *view, const virga_lighting *lighting, con
     memcpy(out->viewport, view->viewport, sizeof out->viewport);
     out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
     out->depth_given = view->depth.view != VK_NULL_HANDLE;
-    out->color_given = view->color.view != VK_NULL_HANDLE;
+    out->color_given = virga_view_color_given(view);
     fill_lights(lighting, view->position_m, out);
     fill_environment(lighting, out);
 }

@@ -2,6 +2,8 @@
 #ifndef VIRGA_GPU_VIEW_H
 #define VIRGA_GPU_VIEW_H
 
+#include "core/log.h"
+
 #include <virga/light.h>
 #include <virga/shared/view_gpu.h>
 #include <virga/vulkan.h>
@@ -9,6 +11,12 @@
 /* VIRGA_OK; VIRGA_ERROR_INVALID, logged, for an invalid view or time; VIRGA_NOT_READY, logged, for a viewport without
  * pixels. */
 virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s);
+
+/* VIRGA_ERROR_INVALID, logged, if there is no such encoding, or an image of that format has none. */
+virga_result virga_encoding_check(const virga_log *log, const char *name, virga_encoding encoding, VkFormat format);
+
+/* VIRGA_COLOR_..., or 0 without the host's picture. */
+uint32_t virga_view_color_given(const virga_view *view);
 
 /* Whether the host gave the previous frame's camera. Otherwise the open camera is used. */
 bool virga_view_has_previous(const virga_view *view);

@@ -88,6 +88,7 @@ static void fill_picture(const virga_lens *lens, const virga_view *view, virga_l
     out->depth_a = view->clip_from_view[10];
     out->depth_b = view->clip_from_view[14];
     out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
+    out->color_given = virga_view_color_given(view);
     out->depth_given = view->depth.view != VK_NULL_HANDLE && out->depth_b != 0;
     out->left = (uint32_t)view->viewport[0];
     out->top = (uint32_t)view->viewport[1];

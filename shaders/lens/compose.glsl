@@ -3,8 +3,8 @@
 // At half resolution, what is nearly in focus comes from the pixels themselves, and what is not from the blurred
 // images; it changes over where the circle of confusion grows from half a pixel to two.
 // The includer has lens.glsl, pixels.glsl and layers.glsl.
+#include "scene_color.glsl"
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
-layout(set = 0, binding = 5) uniform sampler2D scene_color;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
 
 ivec2 pixel;  // in the target
@@ -28,7 +28,7 @@ vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 // The scene without layers. `near_px` is the signed circle of confusion of what is in `near`.
 void scene_at(out vec4 near, out vec4 far, out float near_px)
 {
-    const vec4 sharp = vec4(finite(texelFetch(scene_color, pixel, 0)).rgb, 1.0);
+    const vec4 sharp = vec4(scene_color(pixel), 1.0);
     const float radius = view.depth_given != 0u
                              ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(view.step) : 0.0;
     const vec4 behind = field(VIRGA_LENS_FAR);

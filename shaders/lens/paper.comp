@@ -11,11 +11,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
 #include "pixels.glsl"
+#include "scene_color.glsl"
 #include "layers.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
-layout(set = 0, binding = 5) uniform sampler2D scene_color;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D picture;
 
 ivec2 pixel;
@@ -45,11 +45,11 @@ float weight(int x, int y, uint blur)
 vec3 filtered_scene(uint blur)
 {
     if (blur == 0u)
-        return finite(texelFetch(scene_color, pixel, 0)).rgb;
+        return scene_color(pixel);
     vec4 sum = vec4(0.0);
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++)
-            sum += weight(x, y, blur) * vec4(finite(texelFetch(scene_color, neighbour(x, y), 0)).rgb, 1.0);
+            sum += weight(x, y, blur) * vec4(scene_color(neighbour(x, y)), 1.0);
     return sum.rgb / sum.a;
 }
 

@@ -8,6 +8,7 @@
 #include "pixels.glsl"
 #include "layers.glsl"
 #include "compose.glsl"
+#include "gpu/encode.glsl"
 
 layout(push_constant) uniform Part { uint part; }; // 0: the scene; else 1 + the number of a layer
 layout(location = 0) out vec4 color;
@@ -18,11 +19,9 @@ void main()
     vec4 near, far;
     float near_px;
     scene_at(near, far, near_px);
-    if (part == 0u) {
-        color = over(near, far);
-        return;
-    }
+    vec4 shown = over(near, far);
     bool behind = true;
     for (uint layer = 0u; layer < part; layer++)
-        color = layer_cut(layer, near, near_px, behind);
+        shown = layer_cut(layer, near, near_px, behind);
+    color = for_target(shown);
 }

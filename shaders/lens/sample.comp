@@ -7,11 +7,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
 #include "pixels.glsl"
+#include "scene_color.glsl"
 #include "spread.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
-layout(set = 0, binding = 5) uniform sampler2D scene_color;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D samples;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D spreads;
 
@@ -35,7 +35,7 @@ void main()
     float radius = 0.0;
     for (uint i = 0u; i < pixels; i++) {
         const float weight = max(1.0 - (radii[i] - nearest), 0.0);
-        sum += weight * vec4(finite(texelFetch(scene_color, pixel_of(texel, i), 0)).rgb, 1.0);
+        sum += weight * vec4(scene_color(pixel_of(texel, i)), 1.0);
         radius += weight * radii[i];
     }
     radius /= sum.a;

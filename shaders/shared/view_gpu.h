@@ -11,6 +11,10 @@ typedef struct virga_light_gpu virga_light_gpu;
 typedef struct virga_view_gpu virga_view_gpu;
 #endif
 
+/* How the values of the host's picture are read, see virga_view.color_encoding. */
+#define VIRGA_COLOR_LINEAR 1u
+#define VIRGA_COLOR_SRGB   2u
+
 struct virga_light_gpu {
     float position[3]; /* m, relative to the camera */
     float inv_range;   /* 1/m, 1 / range */
@@ -42,7 +46,7 @@ struct virga_view_gpu {
     float pixel_angle;  /* tangent of the angle of a pixel at the centre of the picture */
     float far_depth;    /* depth buffer value of the background */
     uint depth_given;
-    uint color_given;
+    uint color_given; /* VIRGA_COLOR_...; 0: not given */
     uint light_count;
     float sh[27];          /* environment light: spherical harmonics, coefficient-major RGB */
     float phase_moment[3]; /* first three Legendre moments of the phase function */

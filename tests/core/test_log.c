@@ -37,7 +37,7 @@ static void ids_have_names_of_their_own(void **state)
 {
     (void)state;
     assert_string_equal(virga_log_name(VIRGA_LOG_ARGUMENT), "argument");
-    for (int a = VIRGA_LOG_ARGUMENT; a <= VIRGA_LOG_FRAME_LOST; a++) {
+    for (int a = VIRGA_LOG_ARGUMENT; a <= VIRGA_LOG_ENCODING; a++) {
         assert_string_not_equal(virga_log_name((virga_log_id)a), "unknown");
         for (int b = VIRGA_LOG_ARGUMENT; b < a; b++) {
             assert_string_not_equal(virga_log_name((virga_log_id)a), virga_log_name((virga_log_id)b));

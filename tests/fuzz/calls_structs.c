@@ -111,6 +111,7 @@ void calls_fill_target_def(calls *c, virga_target_def *out)
     if (c->device->honest)
         return;
     out->reversed_depth = calls_once_in(c, 4);
+    out->encoding = (virga_encoding)calls_below(c, 4);
     if (calls_once_in(c, 3)) {
         out->color_count = 3;
         out->motion_attachment = calls_below(c, 3);

@@ -19,7 +19,7 @@
 
 #include "watch.h"
 
-enum { LOG_IDS = VIRGA_LOG_FRAME_LOST + 1 };
+enum { LOG_IDS = VIRGA_LOG_ENCODING + 1 };
 
 typedef struct gpu_fixture {
     fixture gpu;

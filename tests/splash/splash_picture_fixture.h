@@ -31,7 +31,8 @@ typedef struct shot {
     double shutter_s, after_s; /* s, length of the shutter interval; drawn time after the newest tick */
     float scene_depth;         /* depth buffer value */
     bool give_depth, give_color, reversed;
-    bool even; /* the whole scene is white */
+    float even;              /* the whole scene has this light; 0: see record_plate */
+    virga_encoding encoding; /* of the scene's picture */
     host_buffer sprites, prepared;
 } shot;
 
@@ -114,6 +115,7 @@ static inline virga_view view_of(const shot *s)
         picture_reverse_depth(&view);
     if (s->give_depth)
         view.depth = host_target_depth(&s->picture);
+    view.color_encoding = s->encoding;
     if (s->give_color)
         view.color = host_target_color(&s->picture);
     return view;
@@ -154,7 +156,7 @@ static inline void clear_part(VkCommandBuffer cmd, VkRect2D part, float r, float
     vkCmdClearAttachments(cmd, 1, &clear, 1, &rect);
 }
 
-/* The scene: a constant depth; white, or red on the left and green on the right, with blue in the upper half. */
+/* The scene: a constant depth; `even`, or red on the left and green on the right, with blue in the upper half. */
 static inline void record_plate(const shot *s, VkCommandBuffer cmd)
 {
     const uint32_t w = s->picture.width / 2, h = s->picture.height / 2;
@@ -162,11 +164,11 @@ static inline void record_plate(const shot *s, VkCommandBuffer cmd)
     const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
     host_target_begin_plate(&s->picture, cmd);
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
-    const float white = s->even;
-    clear_part(cmd, (VkRect2D){{0, 0}, {w, h}}, 1, white, 1);
-    clear_part(cmd, (VkRect2D){{(int32_t)w, 0}, {w, h}}, white, 1, 1);
-    clear_part(cmd, (VkRect2D){{0, (int32_t)h}, {w, h}}, 1, white, white);
-    clear_part(cmd, (VkRect2D){{(int32_t)w, (int32_t)h}, {w, h}}, white, 1, white);
+    const float low = s->even, light = low > 0 ? low : 1;
+    clear_part(cmd, (VkRect2D){{0, 0}, {w, h}}, light, low, light);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, 0}, {w, h}}, low, light, light);
+    clear_part(cmd, (VkRect2D){{0, (int32_t)h}, {w, h}}, light, low, low);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, (int32_t)h}, {w, h}}, low, light, low);
     host_target_end_plate(&s->picture, cmd);
 }
 

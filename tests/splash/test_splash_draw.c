@@ -102,6 +102,26 @@ static void a_wide_droplet_shows_the_scene_on_its_head(void **state)
     close_shot(&s);
 }
 
+/* 0.735 is what the curve of sRGB makes of 0.5. */
+static void a_droplet_decodes_an_encoded_picture(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_flying(&s, 10e-3, nowhere, at_rest);
+    aim_from(&s, 0.04);
+    s.give_color = true;
+    s.even = 0.5f;
+    const double light = sum_of(&s, draw_frame(&s), 0);
+    s.even = 0.735357f;
+    const double wrong = sum_of(&s, draw_frame(&s), 0);
+    s.encoding = VIRGA_ENCODING_SRGB;
+    const double decoded = sum_of(&s, draw_frame(&s), 0);
+    printf("light %.3f, of the encoded picture %.3f, and %.3f if it is not decoded\n", light, decoded, wrong);
+    assert_true(fabs(decoded / light - 1) < 1e-4 && wrong > 1.2 * light);
+    close_shot(&s);
+}
+
 /* ---- prepares and draws */
 
 static void assert_nothing(const shot *s, const float *pixels)
@@ -254,6 +274,7 @@ int main(void)
         cmocka_unit_test(what_is_near_the_camera_fades),
         cmocka_unit_test(lamps_brighten_droplets_and_change_no_coverage),
         cmocka_unit_test(a_wide_droplet_shows_the_scene_on_its_head),
+        cmocka_unit_test(a_droplet_decodes_an_encoded_picture),
         cmocka_unit_test(without_a_prepare_in_this_frame_nothing_is_drawn),
         cmocka_unit_test(into_a_target_not_attached_nothing_is_drawn),
         cmocka_unit_test(two_views_of_a_frame_both_come_out_right),

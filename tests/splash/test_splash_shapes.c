@@ -208,7 +208,7 @@ static void a_crown_in_even_light_is_not_seen(void **state)
     shot s;
     open_shot(&s);
     put_tall_crown(&s);
-    s.even = true;
+    s.even = 1;
     memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
     for (int c = 0; c < 3; c++)
         s.f.settings.lighting.environment_sh[0][c] = (float)(2 * sqrt(M_PI));

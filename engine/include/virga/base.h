@@ -108,6 +108,8 @@ typedef enum virga_log_id {
     /* The device has not executed a frame that was reported as completed, see virga_frame_dropped. Logged at the first
      * such frame, and then at the 10th, 100th, ... */
     VIRGA_LOG_FRAME_LOST = 18,
+
+    VIRGA_LOG_ENCODING = 19, /* a target has a UNORM format and no encoding, see virga_target_def.encoding */
 } virga_log_id;
 
 /* Returns the short, stable name of a log id, e.g. "argument". Never NULL. Thread-safety: any thread. */

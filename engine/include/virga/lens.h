@@ -136,7 +136,8 @@ VIRGA_API VkDeviceSize virga_lens_estimate(const virga_lens_def *def);
 
 /* A layer over the scene. */
 typedef struct virga_lens_layer {
-    /* Required. Premultiplied linear radiance and coverage, in the target's pixels. `before` as in virga_view.color. */
+    /* Required. Premultiplied linear radiance and coverage, in the target's pixels, also where view.color is encoded.
+     * `before` as in virga_view.color. */
     virga_image color;
 
     /* (optional) Depth of each pixel, as a value of the view's depth buffer, in the target's pixels. */

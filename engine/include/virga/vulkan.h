@@ -334,6 +334,18 @@ typedef struct virga_image {
     virga_image_state after;
 } virga_image;
 
+/* How the values of a picture stand for light. An image or attachment of an _SRGB format is linear here: the device
+ * converts it. */
+typedef enum virga_encoding {
+    /* As linear. A target that is known to have a UNORM format of up to 10 bits then logs a warning. */
+    VIRGA_ENCODING_NOT_GIVEN = 0,
+    VIRGA_ENCODING_LINEAR = 1,
+
+    /* Linear light through the curve of sRGB (IEC 61966-2-1): a swapchain of a plain UNORM format, into which a host
+     * writes colors as the screen shows them. */
+    VIRGA_ENCODING_SRGB = 2,
+} virga_encoding;
+
 /* Describes what draws go into. A target is an object of its own: to change formats, make another one. The state of
  * the simulation does not depend on it. */
 typedef struct virga_target virga_target; /* opaque */
@@ -374,8 +386,7 @@ typedef struct virga_target_def {
      * (dynamic) VK_FORMAT_UNDEFINED for an attachment that the host has left out. Attachment 0 is required.
      * (render pass) Optional: formats that are given are checked.
      * Attachment 0 gets premultiplied linear radiance and coverage, by blending. A format that the device cannot blend
-     * is refused. Use a float or an _SRGB format: in a plain UNORM format the host must encode the values itself when
-     * it reads them. */
+     * is refused. Use a float or an _SRGB format, or say in `encoding` that the values are encoded. */
     VkFormat color_formats[VIRGA_MAX_ATTACHMENTS];
 
     /* (dynamic) VK_FORMAT_UNDEFINED: no depth attachment. */
@@ -412,6 +423,21 @@ typedef struct virga_target_def {
 
     /* Greater depth is nearer. Default false. */
     bool reversed_depth;
+
+    /* How attachment 0 holds color. With VIRGA_ENCODING_SRGB, draws and the lens's picture are encoded in the shader,
+     * which costs some operations per pixel; with an _SRGB format that is refused. Data (virga_glass_draw_refraction,
+     * virga_water_draw_data) are never encoded. Default VIRGA_ENCODING_NOT_GIVEN.
+     *
+     * Blending then takes place between encoded values, where light does not add up. Virga allows for that: what it
+     * draws is exact where it covers all of a pixel, and over a background of the light blend_background. Where it only
+     * adds a little light to a background of a tenth of that, it adds a quarter of what it should, and to one of five
+     * times that about 2.6 times as much. To have it exact everywhere, draw into a float target and encode the whole
+     * picture afterwards. */
+    virga_encoding encoding;
+
+    /* (VIRGA_ENCODING_SRGB) [0.0001; 1] linear light behind the water for which blending is exact: about the middle of
+     * the picture's. 0.02 suits a night. Default 0.18. */
+    float blend_background;
 } virga_target_def;
 
 VIRGA_API virga_target_def virga_default_target_def(void);
@@ -549,11 +575,15 @@ typedef struct virga_view {
      * edges by the depth test, and no haze. */
     virga_image depth;
 
-    /* (optional) Color of the opaque scene in the target's pixels: linear radiance, single-sampled. Sampled where water
+    /* (optional) Color of the opaque scene in the target's pixels: radiance, single-sampled. Sampled where water
      * refracts what is behind it. `before` is its layout and access while drawing, and stays. The image of the previous
      * frame will do if it has no drops of panes in it; films would show those again and again. image VK_NULL_HANDLE:
      * refraction shows the environment instead. */
     virga_image color;
+
+    /* How `color` holds radiance. Encoded colors are decoded after they are filtered; a format of _SRGB is refused with
+     * VIRGA_ENCODING_SRGB. Default VIRGA_ENCODING_NOT_GIVEN: linear. */
+    virga_encoding color_encoding;
 
     /* For motion vectors and the reactive mask: the previous frame, and what is written. */
     virga_temporal temporal;

@@ -8,7 +8,7 @@ layout(location = 3) out vec3 along_v;
 layout(location = 4) out vec3 mist_light;
 
 // Constants of the view, see corner.glsl.
-layout(location = 8) flat out vec4 tint_given; // a: 1 if the host's picture is given
+layout(location = 8) flat out vec4 tint_given; // a: color_given of the view
 layout(location = 9) flat out vec4 clip_xy[2]; // view.clip_from_rel, column by column
 layout(location = 11) flat out vec4 clip_w;
 layout(location = 12) flat out uint view_texel;

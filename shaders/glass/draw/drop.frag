@@ -17,6 +17,7 @@
 #include "water.glsl"
 #endif
 #include "drop_cover.glsl"
+#include "gpu/encode.glsl"
 
 layout(set = 0, binding = 30) uniform sampler2D textures;
 
@@ -59,7 +60,7 @@ void main()
 #endif
     if (cover <= 0.0 || is_behind_scene())
         discard;
-    radiance = vec4(light_of_drop(), 1.0) * cover;
+    radiance = for_target(vec4(light_of_drop(), 1.0) * cover);
 #ifdef TEMPORAL
     const Water water = Water(cover, 0.0, 0.0, 1.0, vec2(0.0), 0.0);
     write_temporal(shows_scene(path, water) ? motion_in_water(change, scene_before(path.pixel), shown_before(path, d))

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "surface.glsl"
+#include "gpu/encode.glsl"
 
 layout(set = 0, binding = 21) uniform sampler2D mist_map;
 
@@ -21,5 +22,5 @@ void main()
         discard;
     if (SIDE == VIRGA_GLASS_DRAW_OPAQUE && dot(position, cross(along_u, along_v)) > 0.0)
         discard; // the back of a surface that is not glass
-    radiance = vec4(coverage * mist_light, coverage);
+    radiance = for_target(vec4(coverage * mist_light, coverage));
 }

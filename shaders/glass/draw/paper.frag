@@ -13,6 +13,7 @@
 #include "plate.glsl"
 #include "paper.glsl"
 #include "temporal.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -29,7 +30,7 @@ void main()
     const vec3 light = HAS_PLATE ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
                                  : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
     const float alpha = water.cover + water.mist;
-    radiance = vec4(light * alpha, alpha);
+    radiance = for_target(vec4(light * alpha, alpha));
 #ifdef TEMPORAL
     const vec2 shown_was = water_before() + pixel - gl_FragCoord.xy;
     write_temporal(motion_in_water(change, scene_before(pixel), shown_was), alpha);

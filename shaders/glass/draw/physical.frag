@@ -13,6 +13,7 @@
 #include "path.glsl"
 #include "water_light.glsl"
 #include "temporal.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -56,10 +57,11 @@ void main()
     const Path path = path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE);
 #endif
     const vec3 light = water_light(path, d, water);
-    radiance = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
+    vec4 shown = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
     if (opaque) {
         const float focus = focus_beside(water.slope, water.density, light_direction(cross(along_u, along_v)));
         const vec3 more = tint_given.w == 0.0 ? vec3(0.0) : plate_at(gl_FragCoord.xy, 1.0) * max(focus - 1.0, 0.0);
-        radiance += (1.0 - radiance.a) * vec4(more, max(1.0 - focus, 0.0));
+        shown += (1.0 - shown.a) * vec4(more, max(1.0 - focus, 0.0));
     }
+    radiance = for_target(shown);
 }

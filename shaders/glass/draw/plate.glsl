@@ -1,11 +1,13 @@
 // plate.glsl - look-ups of the plate behind the pane: sharp, or in smaller copies where a drop shows much of it in few
 // pixels.
 #include "copies.glsl"
+#include "gpu/host_color.glsl"
 
 layout(set = 0, binding = 16) uniform sampler2D scene_color;
 
 vec2 plate_size() { return vec2(textureSize(scene_color, 0)); }
 
+#ifndef PAPER
 // The mean over about `pixels` x `pixels` pixels of the picture.
 vec3 plate_at(vec2 pixel, float pixels)
 {
@@ -15,10 +17,9 @@ vec3 plate_at(vec2 pixel, float pixels)
     // Only the nearest copy: drops are too small to show the border between two levels.
     const float sharp = copied > 1.0 ? clamp(-level / log2(copied), 0.0, 1.0) : level < 0.0 ? 1.0 : 0.0;
     const int nearest = clamp(int(level + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
-    return mix(copy_at(uv, nearest), textureLod(scene_color, uv, 0.0).rgb, sharp);
+    return mix(copy_at(uv, nearest), host_color(textureLod(scene_color, uv, 0.0).rgb, uint(tint_given.w)), sharp);
 }
 
-#ifndef PAPER
 #define MIRRORED 0.2 // part of the picture along its borders that is shown beyond them
 
 // Projects a point relative to the camera (w = 1) or a direction (w = 0) to a pixel. False: behind the camera.

@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
+#include "gpu/host_color.glsl"
 
 layout(local_size_x = VIRGA_GLASS_COPY) in;
 layout(set = 0, binding = 13, rgba16f) uniform image2D copies_out;
@@ -19,7 +20,7 @@ void main()
     vec3 sum = vec3(0.0);
     for (int y = low.y; y < high.y; y++)
         for (int x = low.x; x < high.x; x++)
-            sum += min(texelFetch(scene_color, ivec2(x, y), 0).rgb, vec3(60000.0));
+            sum += min(host_color(texelFetch(scene_color, ivec2(x, y), 0).rgb, view.color_given), vec3(60000.0));
     const ivec2 count = high - low;
     imageStore(copies_out, at, vec4(sum / float(count.x * count.y), 1.0));
 }

@@ -7,6 +7,7 @@
 #include "view.glsl"
 #include "gpu/scene_depth.glsl"
 #include "glow.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) noperspective in vec3 ray; // inputs: see glow.vert
 layout(location = 1) flat in vec4 lamp;
@@ -86,5 +87,5 @@ void main()
     // Not negative: where the ray ends near the camera both are nearly one, and the arc tangent of GPUs is imprecise.
     const float scattered = all_around ? max(scattered_below(to) - scattered_below(from), 0.0)
                                        : integrate_lit(closest, direction, from, to);
-    radiance = vec4(strength.rgb * (scattered * fade * fade * lamp_visibility() / closest.nearest), 0.0);
+    radiance = for_target(vec4(strength.rgb * (scattered * fade * fade * lamp_visibility() / closest.nearest), 0.0));
 }

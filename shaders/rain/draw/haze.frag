@@ -9,6 +9,7 @@
 #include "view.glsl"
 #include "gpu/scene_depth.glsl"
 #include "haze.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) noperspective in vec3 ray; // see haze.vert
 layout(location = 1) flat in vec4 depth_and_reach;
@@ -31,5 +32,5 @@ void main()
     const float alpha = 1.0 - exp(-haze_thickness(path_m, depth_and_reach.w));
     if (alpha <= 0.0 || inverse_begin_depth <= 0.0)
         discard;
-    radiance = vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha);
+    radiance = for_target(vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha));
 }

@@ -8,6 +8,7 @@
 #include "view.glsl"
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) noperspective in vec3 along_turns_depth;
 layout(location = 1) flat in vec4 light_alpha;
@@ -22,7 +23,7 @@ void main()
     float alpha = light_alpha.a * streak_profile(across, shape.x) * streak_length(along_turns_depth.x, shape.y);
     if (HAS_DEPTH)
         alpha *= soft_edge(along_turns_depth.z, depth_terms);
-    radiance = vec4(light_alpha.rgb * streak_wave(along_turns_depth.y, shape.z) * alpha, alpha);
+    radiance = for_target(vec4(light_alpha.rgb * streak_wave(along_turns_depth.y, shape.z) * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -8,6 +8,7 @@
 #include "view.glsl"
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) noperspective in vec4 streak_position;
 layout(location = 1) flat in vec4 center_alpha;
@@ -61,7 +62,7 @@ void main()
     const vec3 lamps = max(center_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
     const float lens_blend = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
     light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamps, lens_blend);
-    radiance = vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha);
+    radiance = for_target(vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

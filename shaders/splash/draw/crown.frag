@@ -19,6 +19,7 @@ layout(scalar, set = 0, binding = 1) uniform View
 #include "through.glsl"
 #include "crown_rim.glsl"
 #include "gpu/temporal.glsl"
+#include "gpu/encode.glsl"
 #ifdef MOTION
 layout(location = 3) in vec3 before; // in the previous frame's clip coordinates: x, y, w
 #endif
@@ -68,7 +69,7 @@ vec3 through_wall(vec3 d, vec3 lean)
                       vec2(dot(lean, normalize(to_vec(view.right))), dot(lean, normalize(to_vec(view.up))));
     const vec2 low = vec2(view.viewport[0], view.viewport[1]) + 0.5;
     const vec2 pixel = clamp(gl_FragCoord.xy + bent, low, low + vec2(view.viewport[2], view.viewport[3]) - 1.0);
-    return textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb;
+    return scene_at(pixel);
 }
 
 void main()
@@ -105,7 +106,7 @@ void main()
     const float body = mirror + (1.0 - mirror) * hides, moving = mirror + (1.0 - mirror) * thick;
     const vec3 light = mirror * around_of(reflect(d, n)) + (1.0 - mirror) * hides * behind + glitter;
     const float visible = edge_cover * clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
-    radiance = vec4(light * visible, body * visible);
+    radiance = for_target(vec4(light * visible, body * visible));
     WRITE_MOTION(motion_from(before), moving * visible);
     WRITE_REACTIVE(moving * visible, view.reactive_gain);
 }

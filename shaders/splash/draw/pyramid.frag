@@ -12,6 +12,7 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "gpu/temporal.glsl"
+#include "gpu/encode.glsl"
 #ifdef MOTION
 layout(location = 2) in vec3 before; // in the previous frame's clip coordinates: x, y, w
 #endif
@@ -30,7 +31,7 @@ void main()
     const vec3 light = 0.5 * environment(reflect(d, n), vec2(0.9, 0.7)) + 0.5 * environment(d, vec2(0.9, 0.7)) +
                        0.5 * lamps(position, d);
     const float alpha = shade.x * (HAS_DEPTH ? soft_edge(1.0 / gl_FragCoord.w) : 1.0);
-    radiance = vec4(light * alpha, alpha);
+    radiance = for_target(vec4(light * alpha, alpha));
     WRITE_MOTION(motion_from(before), alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

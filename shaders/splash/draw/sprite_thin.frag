@@ -9,11 +9,12 @@
 #include "shared/view_gpu.h"
 layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #include "sprite_pixel.glsl"
+#include "gpu/encode.glsl"
 
 void main()
 {
     const float alpha = sprite_cover(), u = min(abs(from_middle()) / max(shape.x, 0.5), 1.0);
-    radiance = vec4(mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u) * alpha, alpha);
+    radiance = for_target(vec4(mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u) * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -14,6 +14,7 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #include "torn.glsl"
 #include "sprite_pixel.glsl"
 #include "through.glsl"
+#include "gpu/encode.glsl"
 
 #define WIDE_PX 3.0 // as in view.glsl
 
@@ -51,7 +52,7 @@ void main()
     const vec3 mean = mix(mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u), even, smeared);
     const float show = clamp((2.0 * half_width - WIDE_PX) / WIDE_PX, 0.0, 1.0) * (1.0 - 0.85 * smeared);
     const vec3 light = mix(mean, through_ball(d, across) + lamps_in, show);
-    radiance = vec4(light * alpha, alpha);
+    radiance = for_target(vec4(light * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -1,6 +1,12 @@
 // through.glsl - what is seen through water and reflected on it: the scene where the host gives its picture, else the
 // environment.
+#include "gpu/host_color.glsl"
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
+
+vec3 scene_at(vec2 pixel)
+{
+    return host_color(textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, view.color_given);
+}
 
 // The environment. The surroundings hide it below, at, and somewhat above the horizon: there the picture just behind
 // the pixel stands for them.
@@ -9,7 +15,7 @@ vec3 around_of(vec3 direction)
     const vec3 open = environment(direction, vec2(1.0));
     if (view.color_given == 0u)
         return open;
-    const vec3 behind = textureLod(scene_color, gl_FragCoord.xy / vec2(textureSize(scene_color, 0)), 0.0).rgb;
+    const vec3 behind = scene_at(gl_FragCoord.xy);
     return mix(min(behind, open), open, smoothstep(-0.2, 0.4, direction.y));
 }
 
@@ -27,7 +33,7 @@ vec3 seen(vec3 direction)
         return around; // independent of the picture
     const vec2 pixel =
         vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
-    return mix(around, textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, inside);
+    return mix(around, scene_at(pixel), inside);
 }
 
 float fresnel(float cosine) { return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0); }

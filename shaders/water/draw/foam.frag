@@ -9,6 +9,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_DEPTH or 0
 #define SCENE_DEPTH_BINDING 17
 #include "gpu/scene_depth.glsl"
 #include "gpu/temporal.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) in vec2 position;
 layout(location = 1) flat in vec4 color_coverage;
@@ -25,7 +26,7 @@ void main()
     float covered = color_coverage.w * inside * (2.0 - inside);
     if (LOOK != 0u)
         covered *= soft_edge(motion_distance.z, depth_terms);
-    radiance = vec4(color_coverage.rgb * covered, covered);
+    radiance = for_target(vec4(color_coverage.rgb * covered, covered));
     WRITE_REACTIVE(covered, view.reactive_gain);
     WRITE_MOTION(motion_distance.xy, covered);
 }

@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
 #include "gpu/temporal.glsl"
 #include "surface.glsl"
 #include "light.glsl"
+#include "gpu/encode.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -38,7 +39,7 @@ void main()
     point.normal = seen_normal(normal, point.incident);
     point.spread = 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
     point.thickness = thickness_at(at);
-    radiance = vec4(light_of(point) * covered, covered);
+    radiance = for_target(vec4(light_of(point) * covered, covered));
     gl_FragDepth = clamp(view.depth_b / depth - view.depth_a, 0.0, 1.0);
     WRITE_REACTIVE(covered, view.reactive_gain);
 #ifdef MOTION
