@@ -504,13 +504,16 @@ static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          P
 
 /* In the order of the GLASS_DRAW_... indices. */
 const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
-    {"glass.physical", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FRAGMENT_FORMS(glass_draw_physical_frag), physical, 16},
-    {"glass.paper", VIRGA_FORM(glass_draw_paper_vert), VIRGA_FRAGMENT_FORMS(glass_draw_paper_frag), paper_draws, 4},
-    {"glass.refraction", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FORM(glass_draw_refraction_frag), refraction_draws, 4,
-     .replace = true},
-    {"glass.mist", VIRGA_FORM(glass_draw_mist_vert), VIRGA_FORM(glass_draw_mist_frag), mist_draws, 8},
-    {"glass.textured", VIRGA_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_drop_frag), textured_draws, 2},
-    {"glass.textured_refraction", VIRGA_FORM(glass_draw_drop_vert), VIRGA_FORM(glass_draw_drop_refraction_frag),
+    {"glass.physical", VIRGA_VERTEX_FORM(glass_draw_pane_vert), VIRGA_FRAGMENT_FORMS(glass_draw_physical_frag),
+     physical, 16},
+    {"glass.paper", VIRGA_VERTEX_FORM(glass_draw_paper_vert), VIRGA_FRAGMENT_FORMS(glass_draw_paper_frag), paper_draws,
+     4},
+    {"glass.refraction", VIRGA_VERTEX_FORM(glass_draw_pane_vert), VIRGA_FORM(glass_draw_refraction_frag),
+     refraction_draws, 4, .replace = true},
+    {"glass.mist", VIRGA_VERTEX_FORM(glass_draw_mist_vert), VIRGA_FORM(glass_draw_mist_frag), mist_draws, 8},
+    {"glass.textured", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_drop_frag),
+     textured_draws, 2},
+    {"glass.textured_refraction", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FORM(glass_draw_drop_refraction_frag),
      textured_draws, 2, .replace = true},
 };
 

@@ -108,6 +108,9 @@ typedef struct virga_effect_pass {
     uint32_t layout; /* index of the virga_effect_layout */
 } virga_effect_pass;
 
+/* Index of the first vertex shader for passes of several views. */
+#define VIRGA_VIEWS_FORM 2
+
 /* The shaders of a draw, indexed by virga_target_outputs. If a row omits a combination, the draw writes only color on
  * such targets. */
 #define VIRGA_FRAGMENT_FORMS(name)                                                               \
@@ -115,9 +118,16 @@ typedef struct virga_effect_pass {
         VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), \
             VIRGA_SPIRV_ROW(name##_both)                                                         \
     }
-#define VIRGA_VERTEX_FORMS(name)                              \
-    {                                                         \
-        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion) \
+/* Those of its vertices: plain, with motion, and both for passes of several views. */
+#define VIRGA_VERTEX_FORMS(name)                                                              \
+    {                                                                                         \
+        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_views), \
+            VIRGA_SPIRV_ROW(name##_motion_views)                                              \
+    }
+/* Without motion. */
+#define VIRGA_VERTEX_FORM(name)                                                         \
+    {                                                                                   \
+        [0] = VIRGA_SPIRV_ROW(name), [VIRGA_VIEWS_FORM] = VIRGA_SPIRV_ROW(name##_views) \
     }
 #define VIRGA_FORM(name)      \
     {                         \
@@ -127,7 +137,7 @@ typedef struct virga_effect_pass {
 /* Pipelines of a target that differ in specialisation constant 0: one for each entry of `constants`. */
 typedef struct virga_effect_draw {
     const char *name;
-    virga_spirv vertex[2], fragment[VIRGA_OUTPUTS_FORMS];
+    virga_spirv vertex[2 * VIRGA_VIEWS_FORM], fragment[VIRGA_OUTPUTS_FORMS];
     const uint32_t *constants;
     uint32_t constant_count;
     bool lines;     /* created only if the context draws lines */
@@ -382,6 +392,7 @@ typedef struct virga_effect_view {
     uint32_t offset; /* of its block in the ring of views */
     float viewport[4];
     bool reversed_depth;
+    uint32_t multiview_index;
     bool drawn;
 } virga_effect_view;
 
@@ -577,6 +588,10 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
 /* The same for draws that need no prepare. *found is NULL for a target that is not attached. */
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                       const virga_target *target, const virga_effect_target **found);
+
+/* VIRGA_ERROR_INVALID, logged, if the target has several views and not this one, see virga_view.multiview_index. */
+virga_result virga_effect_check_multiview(const virga_effect *effect, const char *call, const virga_target *target,
+                                          uint32_t index);
 
 /* Releases the pipelines of all targets. */
 void virga_effect_retire_targets(virga_effect *effect);

@@ -4,6 +4,7 @@
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/target.h"
+#include "gpu/timers.h"
 
 /* ---- targets */
 
@@ -59,14 +60,15 @@ bool virga_effect_wants_motion(const virga_effect *effect)
 
 /* What all pipelines of a row have in common. */
 static virga_graphics_def describe_row(const virga_effect *effect, const virga_effect_draw *row,
-                                       virga_target_outputs outputs)
+                                       const virga_target *target)
 {
+    const virga_target_outputs outputs = virga_target_outputs_of(target);
     const virga_effect_layout *layout = &effect->type->layouts[effect->type->draw_layout];
     const virga_bindings *bindings = *(virga_bindings **)virga_effect_member(effect, layout->member);
     const bool color_only = !row->fragment[VIRGA_OUTPUTS_BOTH].code;
     const virga_target_outputs written = color_only ? VIRGA_OUTPUTS_COLOR : outputs;
     const bool motion = (written & VIRGA_OUTPUTS_MOTION) && row->vertex[1].code;
-    return (virga_graphics_def){.vertex = row->vertex[motion],
+    return (virga_graphics_def){.vertex = row->vertex[motion + (target->def.view_mask ? VIRGA_VIEWS_FORM : 0)],
                                 .fragment = row->fragment[written],
                                 .outputs = written,
                                 .layout = bindings->layout,
@@ -87,7 +89,7 @@ static virga_result create_draws(const virga_effect *effect, const virga_target 
     for (uint32_t i = 0; i < type->draw_count; i++) {
         const virga_effect_draw *row = &type->draws[i];
         const uint32_t count = row->constants ? row->constant_count : 1;
-        virga_graphics_def def = describe_row(effect, row, virga_target_outputs_of(target));
+        virga_graphics_def def = describe_row(effect, row, target);
         for (uint32_t k = 0; k < count; k++, pipeline++) {
             def.constant = common | (row->constants ? row->constants : no_constant)[k];
             if (!row->lines || effect->context->lines)
@@ -170,6 +172,17 @@ static virga_result check_depth(const virga_effect *effect, const char *call, co
                                 call, of_target ? "true" : "false", of_view ? "true" : "false");
 }
 
+/* A draw shows in one view of the pass. */
+virga_result virga_effect_check_multiview(const virga_effect *effect, const char *call, const virga_target *target,
+                                          uint32_t index)
+{
+    if (!target->def.view_mask || target->def.view_mask >> index & 1)
+        return VIRGA_OK;
+    return virga_wrong_argument(&effect->context->log,
+                                "%s: view.multiview_index is %u, which is not in target_def.view_mask (0x%x)", call,
+                                index, target->def.view_mask);
+}
+
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                       const virga_target *target, const virga_effect_target **found)
 {
@@ -180,6 +193,7 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
         return virga_wrong_argument(log, "%s: expected a target of the same context", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
+    virga_timers_expect(effect->context, target->def.view_mask != 0);
     *found = find_target(effect, target->class_of);
     return VIRGA_OK;
 }
@@ -198,5 +212,6 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
         return result;
     effect->not_drawn_logged = false;
     effect->views[effect->slot].drawn = true;
-    return check_depth(effect, call, target);
+    result = virga_effect_check_multiview(effect, call, target, virga_effect_selected(effect)->multiview_index);
+    return result ? result : check_depth(effect, call, target);
 }

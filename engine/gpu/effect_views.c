@@ -152,7 +152,8 @@ void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, uint32_t o
                               .frame = effect->context->frame_index,
                               .set = set,
                               .offset = offset,
-                              .reversed_depth = view->reversed_depth};
+                              .reversed_depth = view->reversed_depth,
+                              .multiview_index = view->multiview_index};
     memcpy(to->viewport, view->viewport, sizeof to->viewport);
     if (prepared)
         *prepared = effect->newest;

@@ -204,6 +204,7 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
 static void describe_rendering(const virga_graphics_def *def, graphics_state *state)
 {
     state->rendering = (VkPipelineRenderingCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                                                       .viewMask = def->view_mask,
                                                        .colorAttachmentCount = def->color_count,
                                                        .pColorAttachmentFormats = def->color_formats,
                                                        .depthAttachmentFormat = def->depth_format,

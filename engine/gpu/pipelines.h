@@ -66,6 +66,7 @@ typedef struct virga_graphics_def {
     VkRenderPass render_pass; /* null: dynamic rendering into these formats */
     uint32_t subpass;
     VkFormat color_formats[VIRGA_MAX_ATTACHMENTS], depth_format, stencil_format;
+    uint32_t view_mask;     /* of dynamic rendering */
     uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
     /* Attachments beyond the first are written only if they are motion_attachment or reactive_attachment. */
     uint32_t color_count;

@@ -171,6 +171,45 @@ static virga_result check_pass(const virga_context *context, const virga_target_
     return result ? result : check_pass_depth(log, def, subpass);
 }
 
+/* ---- several views */
+
+/* The view mask with which the host made the subpass. */
+static uint32_t mask_of_pass(const virga_target_def *def)
+{
+    for (const VkBaseInStructure *at = def->render_pass_info->pNext; at; at = at->pNext)
+        if (at->sType == VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO) {
+            const VkRenderPassMultiviewCreateInfo *info = (const VkRenderPassMultiviewCreateInfo *)(const void *)at;
+            return def->subpass < info->subpassCount ? info->pViewMasks[def->subpass] : 0;
+        }
+    return 0;
+}
+
+static virga_result check_view_mask(const virga_context *context, const virga_target_def *def)
+{
+    const virga_log *log = &context->log;
+    if (def->kind == VIRGA_TARGET_RENDER_PASS && def->render_pass_info && mask_of_pass(def) != def->view_mask)
+        return virga_wrong_argument(log, "target_def.view_mask: expected 0x%x, as subpass %u has, got 0x%x",
+                                    mask_of_pass(def), def->subpass, def->view_mask);
+    if (!def->view_mask)
+        return VIRGA_OK;
+    VkPhysicalDeviceMultiviewFeatures features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
+    VkPhysicalDeviceFeatures2 all = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features};
+    VkPhysicalDeviceMultiviewProperties limits = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                              .pNext = &limits};
+    context->vk.GetPhysicalDeviceFeatures2(context->physical_device, &all);
+    context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
+    if (!features.multiview) {
+        virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING,
+                        "target_def.view_mask: the device lacks the feature multiview (passes of several views)");
+        return VIRGA_ERROR_UNSUPPORTED;
+    }
+    if (limits.maxMultiviewViewCount < 32 && def->view_mask >> limits.maxMultiviewViewCount)
+        return virga_wrong_argument(log, "target_def.view_mask: expected the bits of up to %u views, got 0x%x",
+                                    limits.maxMultiviewViewCount, def->view_mask);
+    return VIRGA_OK;
+}
+
 /* ---- encoding */
 
 /* Formats into which hosts write colors as the screen shows them. */
@@ -231,6 +270,7 @@ static void fill_like(const virga_target *target, virga_target_def *like)
     like->depth_attached = def->depth_attached;
     like->depth_written = def->depth_written;
     like->reversed_depth = def->reversed_depth;
+    like->view_mask = def->view_mask;
     if (def->encoding == VIRGA_ENCODING_SRGB) {
         like->encoding = def->encoding;
         like->blend_background = def->blend_background;
@@ -312,6 +352,8 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
     if (!result)
         result = check_pass(context, def);
     if (!result)
+        result = check_view_mask(context, def);
+    if (!result)
         result = check_encoding(&context->log, def);
     if (result)
         return result;
@@ -373,6 +415,7 @@ virga_result virga_target_pipeline(const virga_target *target, virga_graphics_de
         memcpy(def.color_formats, into->color_formats, sizeof def.color_formats);
         def.depth_format = into->depth_format;
         def.stencil_format = into->stencil_format;
+        def.view_mask = into->view_mask;
     } else {
         def.render_pass = into->render_pass;
         def.subpass = into->subpass;

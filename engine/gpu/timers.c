@@ -81,11 +81,16 @@ static uint32_t pass_index(virga_timers *timers, const char *name)
     return timers->pass_count++;
 }
 
+void virga_timers_expect(virga_context *context, bool multiview)
+{
+    context->timers.multiview = multiview;
+}
+
 virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
 {
     label_begin(context, cmd, name);
     virga_timer_slot *slot = slot_of_frame(context);
-    if (!context->timers.enabled || slot->count + 2 > VIRGA_MAX_QUERIES || !slot->reset)
+    if (!context->timers.enabled || context->timers.multiview || slot->count + 2 > VIRGA_MAX_QUERIES || !slot->reset)
         return (virga_pass_scope){0};
     const uint32_t pass = pass_index(&context->timers, name);
     if (pass == VIRGA_MAX_PASSES)
@@ -107,6 +112,7 @@ static void wait_for_all(virga_context *context, VkCommandBuffer cmd)
 virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
 {
     const bool alone = context->timers.enabled && context->software;
+    context->timers.multiview = false;
     if (alone)
         wait_for_all(context, cmd);
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);

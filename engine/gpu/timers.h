@@ -21,6 +21,7 @@ typedef struct virga_timer_slot {
 
 typedef struct virga_timers {
     bool enabled;
+    bool multiview; /* the next draw is in a pass of several views, where a timestamp takes a query for each of them */
     double timestamp_ns;
     uint64_t timestamp_mask;
     virga_timer_slot slots[VIRGA_MAX_FRAMES_IN_FLIGHT];
@@ -51,6 +52,9 @@ typedef struct virga_pass_scope {
 } virga_pass_scope;
 
 virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
+
+/* What kind of pass the next draw is in. Draws in passes of several views are not timed. */
+void virga_timers_expect(virga_context *context, bool multiview);
 
 /* The same inside a host's rendering, where barriers are not allowed. */
 virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name);

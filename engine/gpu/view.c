@@ -196,6 +196,8 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
     if (!view->sub_frames || view->sub_frames > MAX_SUB_FRAMES)
         return virga_wrong_argument(log, "view.sub_frames: expected 1 to %d, got %u", MAX_SUB_FRAMES, view->sub_frames);
+    if (view->multiview_index >= 32)
+        return virga_wrong_argument(log, "view.multiview_index: expected 0 to 31, got %u", view->multiview_index);
     if (!(view->aperture_m >= 0 && view->aperture_m <= 1))
         return virga_wrong_argument(log, "view.aperture_m: expected 0 to 1 m, got %g", (double)view->aperture_m);
     if (!(view->focus_m >= 0 && view->focus_m <= 1e6f))
@@ -363,6 +365,7 @@ void virga_view_fill(const virga_view *view, const virga_lighting *lighting, con
     out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
     out->depth_given = view->depth.view != VK_NULL_HANDLE;
     out->color_given = virga_view_color_given(view);
+    out->multiview_index = view->multiview_index;
     fill_lights(lighting, view->position_m, out);
     fill_environment(lighting, out);
 }

@@ -107,7 +107,7 @@ static const virga_effect_image images[] = {
     BLANK_COLOR("lens.blank_color", blank_color),
 };
 
-#define SEEN (COMPUTE | FRAGMENT)
+#define SEEN VIRGA_ALL_STAGES
 
 /* The same bindings as in shaders/lens, where each file declares those it uses. */
 static const virga_binding_kind bindings[LENS_BINDINGS] = {

@@ -89,6 +89,7 @@ static void fill_picture(const virga_lens *lens, const virga_view *view, virga_l
     out->depth_b = view->clip_from_view[14];
     out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
     out->color_given = virga_view_color_given(view);
+    out->multiview_index = view->multiview_index;
     out->depth_given = view->depth.view != VK_NULL_HANDLE && out->depth_b != 0;
     out->left = (uint32_t)view->viewport[0];
     out->top = (uint32_t)view->viewport[1];
@@ -254,9 +255,9 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
 /* ---- draw */
 
 const virga_effect_draw lens_draws[LENS_DRAWS] = {
-    [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
+    [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
                            .replace = true},
-    [LENS_DRAW_PART] = {"lens.part", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_part_frag), .no_depth = true,
+    [LENS_DRAW_PART] = {"lens.part", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_part_frag), .no_depth = true,
                         .replace = true},
 };
 

@@ -214,8 +214,8 @@ const virga_effect_draw rain_draws[RAIN_DRAW_ROWS] = {
      VIRGA_FRAGMENT_FORMS(rain_draw_streak_thin_frag), plain, 2},
     {"rain.wide_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_wide_vert),
      VIRGA_FRAGMENT_FORMS(rain_draw_streak_wide_frag), plain, 2},
-    {"rain.haze", VIRGA_FORM(rain_draw_haze_vert), VIRGA_FORM(rain_draw_haze_frag), .no_depth = true},
-    {"rain.glow", VIRGA_FORM(rain_draw_glow_vert), VIRGA_FORM(rain_draw_glow_frag), .no_depth = true},
+    {"rain.haze", VIRGA_VERTEX_FORM(rain_draw_haze_vert), VIRGA_FORM(rain_draw_haze_frag), .no_depth = true},
+    {"rain.glow", VIRGA_VERTEX_FORM(rain_draw_glow_vert), VIRGA_FORM(rain_draw_glow_frag), .no_depth = true},
 };
 
 static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t corners,
@@ -320,6 +320,9 @@ static virga_result check_haze_alone(virga_rain *rain, VkCommandBuffer cmd, cons
     if (begin && virga_settings_check_finite_double(log, "virga_rain_draw_haze: begin", begin, 4))
         return VIRGA_ERROR_INVALID;
     result = virga_view_check(rain->base.context, view, 0);
+    if (result)
+        return result;
+    result = virga_effect_check_multiview(&rain->base, "virga_rain_draw_haze", target, view->multiview_index);
     if (result)
         return result;
     if (view->depth.view == VK_NULL_HANDLE)

@@ -244,9 +244,9 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
 static const uint32_t looks[LOOKS] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 const virga_effect_draw water_draws[WATER_DRAWS] = {
-    {"water.draw", VIRGA_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
-    {"water.foam_draw", VIRGA_FORM(water_draw_foam_vert), VIRGA_FRAGMENT_FORMS(water_draw_foam_frag), looks, 2},
-    {"water.data_draw", VIRGA_FORM(water_draw_data_vert), VIRGA_FORM(water_draw_data_frag)},
+    {"water.draw", VIRGA_VERTEX_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
+    {"water.foam_draw", VIRGA_VERTEX_FORM(water_draw_foam_vert), VIRGA_FRAGMENT_FORMS(water_draw_foam_frag), looks, 2},
+    {"water.data_draw", VIRGA_VERTEX_FORM(water_draw_data_vert), VIRGA_FORM(water_draw_data_frag)},
 };
 
 virga_result virga_water_attach(virga_water *water, const virga_target *target)

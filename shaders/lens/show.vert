@@ -1,6 +1,14 @@
 // show.vert - one triangle over the viewport.
 // One invocation per vertex.
 #version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define VIRGA_GLSL
+#include "shared/lens_gpu.h"
+
+layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
+
+#include "gpu/own_view.glsl"
 
 void main()
 {

@@ -51,6 +51,7 @@ struct virga_lens_gpu {
     float filter_weight[2]; /* (paper) weight of a filter's centre */
     uint layers;            /* layers over the scene */
     uint on_scene;          /* 1 + the layer that lies on the scene; 0: none does */
+    uint multiview_index;   /* see virga_view.multiview_index */
     uint color_given;       /* VIRGA_COLOR_..., see view_gpu.h */
     float layer_inv_m[5];   /* 1/m, 1 / depth of a layer without a depth image; 0: it has one */
     float areas[512];       /* texels, areas of the aperture's image, see shaders/lens/spread.glsl */
@@ -63,7 +64,7 @@ struct virga_lens_state_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 144 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 148 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif

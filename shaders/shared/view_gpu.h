@@ -58,8 +58,9 @@ struct virga_view_gpu {
     float motion_coverage;            /* what covers less keeps the motion vector that is already there */
     float reactive_gain;              /* reactive mask: 1 - (1 - coverage)^reactive_gain */
     uint motion_given;
-    float lens_px;   /* blur at a distance d: lens_px |inv_focus - 1 / d| pixels */
-    float inv_focus; /* 1/m, 1 / focus distance */
+    float lens_px;        /* blur at a distance d: lens_px |inv_focus - 1 / d| pixels */
+    float inv_focus;      /* 1/m, 1 / focus distance */
+    uint multiview_index; /* view of the pass, see virga_view.multiview_index */
 };
 
 #define VIRGA_VIEW_SH_WORD 61u /* offset of `sh` in 32-bit words */

@@ -112,6 +112,7 @@ void calls_fill_target_def(calls *c, virga_target_def *out)
         return;
     out->reversed_depth = calls_once_in(c, 4);
     out->encoding = (virga_encoding)calls_below(c, 4);
+    out->view_mask = calls_once_in(c, 16) ? calls_below(c, 8) : 0;
     if (calls_once_in(c, 3)) {
         out->color_count = 3;
         out->motion_attachment = calls_below(c, 3);

@@ -424,6 +424,13 @@ typedef struct virga_target_def {
     /* Greater depth is nearer. Default false. */
     bool reversed_depth;
 
+    /* The view mask of the subpass (VkRenderPassMultiviewCreateInfo) or of dynamic rendering (viewMask): a pass that
+     * draws several views at once, each into its own layer, as for stereo. Each draw then belongs to one of them, see
+     * virga_view.multiview_index. Needs the feature multiview of Vulkan 1.1, which the host enables; a device without
+     * it is refused with VIRGA_ERROR_UNSUPPORTED. Draws in such a pass have no times (virga_timings_get). Default 0: a
+     * pass of one view. */
+    uint32_t view_mask;
+
     /* How attachment 0 holds color. With VIRGA_ENCODING_SRGB, draws and the lens's picture are encoded in the shader,
      * which costs some operations per pixel; with an _SRGB format that is refused. Data (virga_glass_draw_refraction,
      * virga_water_draw_data) are never encoded. Default VIRGA_ENCODING_NOT_GIVEN.
@@ -568,6 +575,11 @@ typedef struct virga_view {
      * is drawn into, else the draw is. The projection may have no far plane. Default false. */
     bool reversed_depth;
 
+    /* [0; 31] the view of a multiview pass (gl_ViewIndex) that draws of this one show in. Draw each view once in the
+     * pass, e.g. by virga_scene_draw_view; that costs vertices that are nowhere in the other views, but no pixels.
+     * `depth` and `color` show the layer of this view alone. Not read for other passes. Default 0. */
+    uint32_t multiview_index;
+
     /* (optional) Depth of the scene in the target's pixels: a single-sample view of the depth aspect. Sampled for
      * occlusion by the scene (also where a target has no depth attachment), for soft edges and for haze. `before` is
      * its layout and access while drawing, and stays. If it is also an attachment of the pass, it must be read-only
@@ -605,6 +617,8 @@ VIRGA_API virga_view virga_default_view(void);
  *     virga_rain_prepare_view(rain, cmd, &right_view, time_s, &right);
  *     virga_rain_draw_view(rain, cmd, target, left);                    // inside rendering, in any order, also twice
  *     virga_rain_draw_view(rain, cmd, target, right);
+ *
+ * In a multiview pass it is the same: each view is prepared with its own multiview_index, and drawn once.
  *
  * It is valid from its prepare to the end of the frame, or until max_views further prepares or a step of the effect. A
  * draw refuses any other, and one of another effect, with VIRGA_ERROR_INVALID. */

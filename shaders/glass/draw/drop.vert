@@ -21,6 +21,8 @@ layout(location = 1) flat out vec4 tile;   // xy: corner of the first texture in
 layout(location = 2) flat out vec4 amount; // x: alpha, y: level, z: 1 for a point, w: texels of a texture
 layout(location = 3) flat out uint quad;
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     quad = uint(gl_VertexIndex) / 3u;

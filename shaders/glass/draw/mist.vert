@@ -11,6 +11,8 @@
 // xy: texels of the mist map in use; zw: scale of its texture coordinates, per metre
 layout(location = 14) flat out vec4 mist_grid;
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     mist_grid = vec4(look.mist_columns, look.mist_rows, look.mist_scale[0], look.mist_scale[1]);

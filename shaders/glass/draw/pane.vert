@@ -9,4 +9,6 @@
 #include "corner_tile.glsl"
 #include "corner_light.glsl"
 
+#include "gpu/own_view.glsl"
+
 void main() { light_corner(emit_tile_corner(uint(gl_VertexIndex))); }

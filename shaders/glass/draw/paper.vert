@@ -11,6 +11,8 @@
 
 layout(location = 2) out vec4 pane_directions;
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const Corner corner = emit_tile_corner(uint(gl_VertexIndex));

@@ -68,6 +68,8 @@ vec4 depth_test_position(vec3 at)
     return vec4(clamp(pixel, low + radius, low + size - radius - 1.0), radius, clip.w);
 }
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const virga_light_gpu light = view.lights[gl_InstanceIndex];

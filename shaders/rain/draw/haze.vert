@@ -15,6 +15,8 @@ layout(location = 6) flat out vec4 sky[SKY_VECTORS];    // coefficients of the e
                                                         // on; the last word: metres of haze before it
 layout(location = 13) noperspective out float inverse_begin_depth; // 1 / view depth at which haze begins
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2) * 2.0 - 1.0;

@@ -16,6 +16,8 @@ layout(location = 2) flat out vec3 shape; // x: half width; y: see streak_ends; 
 layout(location = 3) flat out vec3 middle_line;
 layout(location = 5) flat out vec4 depth_terms;
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));

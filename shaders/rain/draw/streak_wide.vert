@@ -14,6 +14,8 @@ layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
 layout(location = 3) flat out vec3 shape;    // x: half width; y: length of the drop; z: length of the path (px)
 layout(location = 5) flat out vec4 depth_terms;
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));

@@ -66,6 +66,8 @@ vec3 sheet_point(Shape s, float angle, float up)
     return outward * radius + s.crown.normal * (s.height * CROWN_REACH * up) + leaned;
 }
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const uint slot = splash_slot(listed[look.max_sprites + gl_InstanceIndex]);

@@ -64,6 +64,8 @@ vec3 pyramid_corner(uint pyramid, uint corner, float ago_s)
 #endif
 }
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const uint vertex = uint(gl_VertexIndex);

@@ -13,4 +13,6 @@ layout(scalar, set = 0, binding = 1) uniform View
 };
 #include "sprite_corner.glsl"
 
+#include "gpu/own_view.glsl"
+
 void main() { set_corner(uint(gl_VertexIndex)); }

@@ -13,6 +13,8 @@ layout(location = 1) flat out vec4 color_coverage;
 layout(location = 2) flat out vec3 motion_distance;
 layout(location = 3) flat out vec4 depth_terms; // see gpu/scene_depth.glsl
 
+#include "gpu/own_view.glsl"
+
 void main()
 {
     const int splat = gl_VertexIndex / 3, corner = gl_VertexIndex - 3 * splat;

@@ -1,6 +1,11 @@
 // water.vert - a triangle that covers the view.
 // One invocation per corner.
 #version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+#include "gpu/own_view.glsl"
 
 void main()
 {
