@@ -82,6 +82,7 @@ enum {
     COUNT_FAR_WIDTH,
     COUNT_FAR_HEIGHT,
     COUNT_TICKS,
+    COUNT_VIEWS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -98,6 +99,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_CELLS] = far_cells ? (VkDeviceSize)far_cells * far_cells : 1;
     counts[COUNT_FAR_WIDTH] = far_cells > VIRGA_GROUND_MATERIALS ? far_cells : VIRGA_GROUND_MATERIALS;
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
+    counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
     counts[COUNT_TICKS] =
         def->max_ticks_per_step + 2; /* one more where the window moves, and one for simulated water */
 }
@@ -131,6 +133,7 @@ static const virga_effect_ring rings[] = {
     {"ground.ticks", AT(tick_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_ground_tick_gpu), COUNT_TICKS},
     {"ground.lists", AT(list_ring), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_RING_BYTES(ground_lists),
      VIRGA_COUNT_ONE},
+    {"ground.wet_views", AT(wet_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(ground_wet_block), COUNT_VIEWS},
 };
 
 static const virga_effect_image images[] = {
@@ -193,6 +196,7 @@ static const virga_binding_kind bindings[] = {
 
 static const virga_effect_layout layouts[] = {
     {AT(bindings), bindings, VIRGA_ROWS(bindings), GROUND_SOURCES, sizeof(uint32_t)},
+    {AT(wet_bindings), ground_wet_bindings, GROUND_WET_BINDINGS, VIRGA_MAX_VIEWS, sizeof(uint32_t)},
 };
 
 static const virga_effect_pass passes[] = {
@@ -344,6 +348,9 @@ const virga_effect_type ground_type = {
     .fill_settings = fill_settings,
     .check_settings = check_settings,
     .apply_settings = apply_settings,
+    .draws = ground_draws,
+    .draw_count = 1,
+    .draw_layout = 1,
     .lost = ground_lost,
     VIRGA_TABLE(state_row),
     .state_loaded = ground_state_loaded,

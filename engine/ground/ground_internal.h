@@ -7,7 +7,8 @@
  *   ground_far.c      the map of distant ground
  *   ring_table.c      waves on shallow water
  *   ground_rings.c    the map of rings on puddles
- *   ground_step.c     ticks: the passes in their order */
+ *   ground_step.c     ticks: the passes in their order
+ *   ground_wet.c      the draw of wet ground over a host's picture */
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
 
@@ -20,6 +21,8 @@
 
 #include <virga/ground.h>
 #include <virga/shared/ground_gpu.h>
+#include <virga/shared/ground_wet_gpu.h>
+#include <virga/shared/view_gpu.h>
 
 /* ---- materials.c */
 void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATERIALS]);
@@ -145,6 +148,18 @@ void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd);
 void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
 void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps);
 
+/* ---- ground_wet.c */
+
+typedef struct ground_wet_block {
+    virga_view_gpu view;
+    virga_ground_wet_gpu wet;
+} ground_wet_block;
+
+enum { GROUND_WET_BINDINGS = 7 };
+
+extern const virga_binding_kind ground_wet_bindings[GROUND_WET_BINDINGS];
+extern const virga_effect_draw ground_draws[1];
+
 /* ---- the object */
 
 /* The sources of a tick's water: impacts of the rain, or droplets that splashes return. */
@@ -199,6 +214,8 @@ struct virga_ground {
     virga_ground_step_info info;          /* of this frame's step; the host owns its meshes */
     uint32_t tick_in_step;
     virga_ground_stats stats;
+    virga_ring wet_ring;
+    virga_bindings *wet_bindings;
 };
 
 /* ---- ground.c */

@@ -427,7 +427,8 @@ virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
         virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
-        result = scene_merge_results(result, virga_effect_attach(effect, "virga_scene_attach", target));
+        if (effect->type->draw) /* wet ground is drawn by hosts that attach it themselves */
+            result = scene_merge_results(result, virga_effect_attach(effect, "virga_scene_attach", target));
     }
     return result;
 }

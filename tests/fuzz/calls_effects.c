@@ -157,6 +157,7 @@ static uint32_t with_target(calls_handle object, calls_handle target, uint32_t f
     }
 
 ATTACHED(rain, CALLS_RAIN)
+ATTACHED(ground, CALLS_GROUND)
 ATTACHED(splash, CALLS_SPLASH)
 ATTACHED(glass, CALLS_GLASS)
 ATTACHED(water, CALLS_WATER)
@@ -179,6 +180,26 @@ void call_virga_rain_draw_parts(calls *c)
     uint32_t flags = with_target(h, target, CALLS_RECORDS | CALLS_INSIDE);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags, virga_rain_draw_parts, h.object, cmd, target.object, parts);
+}
+
+void call_virga_default_ground_wet(calls *c)
+{
+    if (virga_default_ground_wet().size != sizeof(virga_ground_wet))
+        calls_wrong(c, __func__, "has the wrong size");
+}
+
+void call_virga_ground_draw_wet(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_GROUND), target = calls_pick(c, CALLS_TARGET);
+    virga_ground_wet wet = virga_default_ground_wet();
+    virga_view view;
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = with_target(h, target, CALLS_RECORDS | CALLS_INSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    CALLS_WILD_ALL(c, &wet);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_ground_draw_wet, h.object, cmd, &view, wrong ? NULL : &wet, target.object);
 }
 
 void call_virga_lens_draw_part(calls *c)

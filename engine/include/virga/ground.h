@@ -311,6 +311,54 @@ typedef struct virga_ground_maps {
 
 VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps);
 
+/* ---- wet ground for hosts without materials that know water --------------------------------------------------- */
+
+/* What virga_ground_draw_wet makes of water. Fill with virga_default_ground_wet. What is out of range is refused. */
+typedef struct virga_ground_wet {
+    uint32_t size, cookie;
+
+    /* [0; 4] how much of all that is drawn. 0: nothing. 2: as much as two layers of wet ground over each other.
+     * Default 1. */
+    float strength;
+
+    /* [0; 1] part of its light that soaked ground loses. Asphalt, soil and rough wood lose about half, smooth stone a
+     * fifth. Default 0.5. */
+    float darkening;
+
+    /* [1; 1000] how far things may be from the water that mirrors them (m). Default 60. */
+    float mirror_reach_m;
+
+    /* [0; VIRGA_GROUND_MATERIALS - 1] material of the ground beyond the far map. Default VIRGA_MATERIAL_ASPHALT. */
+    uint32_t far_material;
+
+    /* What water mirrors where the picture does not show it, as virga_lighting.environment_sh. Default that of
+     * virga_default_lighting. */
+    float environment_sh[9][3];
+} virga_ground_wet;
+
+VIRGA_API virga_ground_wet virga_default_ground_wet(void);
+
+/* Builds the pipeline of virga_ground_draw_wet for a target. virga_scene_attach does not. Errors as
+ * virga_target_create. Another call with the same target does nothing. */
+VIRGA_API virga_result virga_ground_attach(virga_ground *ground, const virga_target *target);
+
+/* Darkens and mirrors what the host has drawn, where the ground is wet: for renderers whose materials do not read the
+ * maps. Inside rendering, after the opaque scene and before all other water, in any frame after the first step; up to 8
+ * times in a frame.
+ *
+ * It needs view->depth and view->color, and knows nothing else of the scene: position and normal come from the depth.
+ * Ground that is steeper than 70 degrees stays dry. What is mirrored is looked up along a ray through the picture.
+ * Where the picture ends the mirror fades into environment_sh; where something hides the end of the ray, it shows what
+ * is seen in that direction. The color that is sampled is the one to which the draw adds: give a copy of the picture as
+ * it is then, as an image that is attached can not be sampled. On a target whose values are encoded the result is exact
+ * over that picture (virga_target_def.encoding).
+ *
+ * VIRGA_NOT_READY: the target is not attached, or the ground was never stepped. VIRGA_ERROR_INVALID: a wrong view or
+ * `wet`, or no depth or color. Costs one pass over the viewport: for wet pixels about 70 samples, a tenth of that for
+ * others. */
+VIRGA_API virga_result virga_ground_draw_wet(virga_ground *ground, VkCommandBuffer cmd, const virga_view *view,
+                                             const virga_ground_wet *wet, const virga_target *target);
+
 /* The cells themselves (virga/shared/ground_cell.h), for display and checks. Each buffer has one entry for each cell of
  * the window, tile by tile. The cell (x, z), counted from the origin of the world, lies at
  *     ((z / 64 mod tiles) x tiles + (x / 64 mod tiles)) x 4096 + (z mod 64) x 64 + x mod 64
