@@ -107,8 +107,8 @@ static bool expected_light(uint32_t x, uint32_t y, double rgb[3])
     return true;
 }
 
-/* The scene's picture is sampled without filtering: half a pixel of it is some millimetres of the floor. */
-#define PIXEL_M     0.01
+/* The scene's picture is interpolated between pixels. The nearest pixel would be off by up to 10 mm of the floor. */
+#define PIXEL_M     0.001
 #define LIGHT_ERROR 4e-4
 
 static void check_sheet(void)

@@ -80,8 +80,8 @@ vec3 scene_through(Point point, float s, Path path)
     const vec2 own = gl_FragCoord.xy, pixel = pixel_of(on_path(point, path, s));
     const vec2 shifted = own + look.refraction * (pixel - own), inside = inside_view(shifted);
     const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth || below_surface(point, inside) > 0.0;
-    const vec2 at = (behind ? inside : own) / vec2(textureSize(scene_color, 0));
-    const vec3 color = host_color(textureLod(scene_color, at, 0.0).rgb, view.color_given);
+    const vec4 texels = between_texels(scene_color, behind ? inside : own, textureSize(scene_color, 0));
+    const vec3 color = host_color(texels.rgb, view.color_given);
     const vec2 outside = abs(shifted - inside) / vec2(view.viewport[2], view.viewport[3]);
     return mix(color, around(path.in_water), clamp(16.0 * max(outside.x, outside.y), 0.0, 1.0));
 }
