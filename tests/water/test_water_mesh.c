@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "water/mesh.h"
+#include "mesh_volume.h"
 
 #include <virga/shared/random.h>
 
@@ -89,21 +89,6 @@ static void assert_closed(const water_mesh *mesh)
     free(other);
 }
 
-static double volume_of(const water_mesh *mesh)
-{
-    double sum = 0;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        const float *a = mesh->vertices[mesh->triangles[i][0]].position,
-                    *b = mesh->vertices[mesh->triangles[i][1]].position,
-                    *c = mesh->vertices[mesh->triangles[i][2]].position;
-        for (int x = 0; x < 3; x++) {
-            const int y = (x + 1) % 3, z = (x + 2) % 3;
-            sum += (double)a[x] * ((double)b[y] * (double)c[z] - (double)b[z] * (double)c[y]) / 6;
-        }
-    }
-    return sum;
-}
-
 /* Balls that touch and lone particles, on both sides of the origin, where blocks begin. */
 static void the_mesh_is_closed(void **state)
 {
@@ -135,7 +120,7 @@ static void its_volume_is_that_of_the_particles(void **state)
     count = 0;
     add_ball(0.003, -0.21, 0.4, 0.24);
     water_mesh mesh = make_mesh();
-    const double volume = volume_of(&mesh), expected = count * D * D * D;
+    const double volume = mesh_volume(&mesh), expected = count * D * D * D;
     if (fabs(volume / expected - 1) > 0.03)
         fail_msg("%g m^3, expected %g", volume, expected);
     assert_closed(&mesh);
