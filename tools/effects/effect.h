@@ -164,8 +164,10 @@ typedef struct tool_budget {
 struct bench;
 
 typedef struct tool_bench {
-    const char *help;       /* lines, each ends with a newline */
-    const option_row *rows; /* its options */
+    const char *name;              /* NULL: that of the effect */
+    const struct tool_bench *next; /* a further bench of the effect; NULL: none */
+    const char *help;              /* lines, each ends with a newline */
+    const option_row *rows;        /* its options */
     size_t row_count;
     bool (*check)(const options *parsed); /* checks its options before a device is opened; may be NULL */
     bool (*run)(struct bench *b, const options *parsed);

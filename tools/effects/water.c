@@ -3,6 +3,7 @@
 
 #include "effect.h"
 #include "scene_rows.h"
+#include "water/bench_water.h"
 #include "water/water_state.h"
 
 #include <math.h>
@@ -443,6 +444,7 @@ const tool_effect water_effect = {
     .points = &water_points,
     .mesh = &water_surface_mesh,
     .write_stats = write_stats,
+    .bench = &water_bench,
     .title = "Water",
     TOOL_ROWS(count, counts),
 };

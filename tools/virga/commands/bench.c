@@ -18,13 +18,27 @@ static const option_row own_rows[] = {
 
 static option_row rows[OPTIONS_MAX];
 
-/* Options of all effects, and the command's own. */
+/* A bench with its name, by index over all effects. False after the last. */
+static bool bench_at(uint32_t index, const tool_bench **bench, const char **name)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        for (*bench = tool_effects[i]->bench; *bench; *bench = (*bench)->next)
+            if (!index--) {
+                *name = (*bench)->name ? (*bench)->name : tool_effects[i]->name;
+                return true;
+            }
+    return false;
+}
+
+/* Options of all benches, and the command's own. */
 static size_t list_rows(void)
 {
+    const tool_bench *bench;
+    const char *name;
     size_t count = 0;
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        for (size_t k = 0; tool_effects[i]->bench && k < tool_effects[i]->bench->row_count; k++)
-            rows[count++] = tool_effects[i]->bench->rows[k];
+    for (uint32_t i = 0; bench_at(i, &bench, &name); i++)
+        for (size_t k = 0; k < bench->row_count; k++)
+            rows[count++] = bench->rows[k];
     for (size_t i = 0; i < sizeof own_rows / sizeof own_rows[0]; i++)
         rows[count++] = own_rows[i];
     return count;
@@ -33,10 +47,11 @@ static size_t list_rows(void)
 /* The names of all benches: "rain|ground|frames", or "rain, ground or frames". */
 static void print_names(char *text, size_t size, const char *separator, const char *last)
 {
+    const tool_bench *bench;
+    const char *name;
     size_t used = 0;
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->bench)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? separator : "", tool_effects[i]->name);
+    for (uint32_t i = 0; bench_at(i, &bench, &name); i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? separator : "", name);
     snprintf(text + used, size - used, "%sframes", last);
 }
 
@@ -49,12 +64,13 @@ static void print_lines(const char *name, const char *lines)
 
 void bench_help(void)
 {
+    const tool_bench *bench;
+    const char *name;
     char names[256];
     print_names(names, sizeof names, "|", "|");
     printf("virga bench %s [options]\n\n", names);
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->bench)
-            print_lines(tool_effects[i]->name, tool_effects[i]->bench->help);
+    for (uint32_t i = 0; bench_at(i, &bench, &name); i++)
+        print_lines(name, bench->help);
     print_lines("frames",
                 "start of a scene of all effects, cold and warm, and how even 2000 frames of steady rain are\n");
     printf("\nMedians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a\n"
@@ -65,11 +81,13 @@ void bench_help(void)
 }
 
 /* The bench of a name; NULL: that of frames, or none. */
-static const tool_bench *find_bench(const char *name)
+static const tool_bench *find_bench(const char *wanted)
 {
-    for (uint32_t i = 0; tool_effects[i]; i++)
-        if (tool_effects[i]->bench && !strcmp(tool_effects[i]->name, name))
-            return tool_effects[i]->bench;
+    const tool_bench *bench;
+    const char *name;
+    for (uint32_t i = 0; bench_at(i, &bench, &name); i++)
+        if (!strcmp(name, wanted))
+            return bench;
     return NULL;
 }
 
@@ -77,11 +95,11 @@ static bool check_options(const options *parsed, uint32_t *passes)
 {
     if (!options_uint(parsed, "--passes", 1, BENCH_MAX_PASSES, passes))
         return false;
-    for (uint32_t i = 0; tool_effects[i]; i++) {
-        const tool_bench *bench = tool_effects[i]->bench;
-        if (bench && bench->check && !bench->check(parsed))
+    const tool_bench *bench;
+    const char *name;
+    for (uint32_t i = 0; bench_at(i, &bench, &name); i++)
+        if (bench->check && !bench->check(parsed))
             return false;
-    }
     return true;
 }
 
