@@ -69,6 +69,9 @@ static VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysical
 static VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2 *out)
 {
     properties(device, &out->properties);
+    for (VkBaseOutStructure *at = out->pNext; at; at = at->pNext)
+        if (at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_PROPERTIES)
+            ((VkPhysicalDeviceMultiviewProperties *)(void *)at)->maxMultiviewViewCount = 6;
 }
 
 static VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2 *out)
@@ -79,6 +82,8 @@ static VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice device, VkPhysicalD
         if (at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
             VkPhysicalDeviceVulkan12Features *of_1_2 = (VkPhysicalDeviceVulkan12Features *)(void *)at;
             of_1_2->scalarBlockLayout = of_1_2->timelineSemaphore = of_1_2->hostQueryReset = VK_TRUE;
+        } else if (at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES) {
+            ((VkPhysicalDeviceMultiviewFeatures *)(void *)at)->multiview = VK_TRUE;
         }
 }
 
