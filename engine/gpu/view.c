@@ -85,18 +85,16 @@ static bool is_integer(VkFormat format)
     }
 }
 
-/* Checks an image of the host, if there is one. */
-static virga_result check_image(const virga_log *log, const char *name, const virga_image *image)
+virga_result virga_image_check(const virga_log *log, const char *name, const virga_image *image)
 {
     if (!image->image != !image->view)
-        return virga_wrong_argument(log, "view.%s: expected an image and its view or neither, got no %s", name,
+        return virga_wrong_argument(log, "%s: expected an image and its view or neither, got no %s", name,
                                     image->view ? "image" : "view");
     if (image->view && image->before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
-        return virga_wrong_argument(log, "view.%s.before.layout: expected the layout while drawing, got UNDEFINED",
-                                    name);
+        return virga_wrong_argument(log, "%s.before.layout: expected the layout while drawing, got UNDEFINED", name);
     if (image->view && is_integer(image->format))
-        return virga_wrong_argument(log, "view.%s.format: expected one that is sampled as floats, got VkFormat %d",
-                                    name, (int)image->format);
+        return virga_wrong_argument(log, "%s.format: expected one that is sampled as floats, got VkFormat %d", name,
+                                    (int)image->format);
     return VIRGA_OK;
 }
 
@@ -128,8 +126,8 @@ static virga_result check_images(const virga_log *log, const virga_view *view)
 {
     if (virga_encoding_check(log, "view.color_encoding", view->color_encoding, view->color.format))
         return VIRGA_ERROR_INVALID;
-    if (check_image(log, "depth", &view->depth) || check_image(log, "color", &view->color) ||
-        check_image(log, "temporal.motion", &view->temporal.motion))
+    if (virga_image_check(log, "view.depth", &view->depth) || virga_image_check(log, "view.color", &view->color) ||
+        virga_image_check(log, "view.temporal.motion", &view->temporal.motion))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }

@@ -15,6 +15,9 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
 /* VIRGA_ERROR_INVALID, logged, if there is no such encoding, or an image of that format has none. */
 virga_result virga_encoding_check(const virga_log *log, const char *name, virga_encoding encoding, VkFormat format);
 
+/* VIRGA_ERROR_INVALID, logged, for an image that is given in part, or can not be sampled as floats. */
+virga_result virga_image_check(const virga_log *log, const char *name, const virga_image *image);
+
 /* VIRGA_COLOR_..., or 0 without the host's picture. */
 uint32_t virga_view_color_given(const virga_view *view);
 

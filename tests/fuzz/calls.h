@@ -36,6 +36,7 @@ typedef enum calls_type {
     CALLS_GLASS,
     CALLS_FLUID,
     CALLS_LENS,
+    CALLS_ENVIRONMENT,
     CALLS_WATER,
     CALLS_SCENE,
     CALLS_TARGET,
@@ -187,5 +188,6 @@ void calls_fill_glass_def(calls *c, virga_glass_def *def);
 void calls_fill_water_def(calls *c, virga_water_def *def);
 void calls_fill_fluid_def(calls *c, virga_fluid_def *def);
 void calls_fill_lens_def(calls *c, virga_lens_def *def);
+void calls_fill_environment_def(calls *c, virga_environment_def *def);
 
 #endif

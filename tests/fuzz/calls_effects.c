@@ -28,7 +28,7 @@ static void destroy_one(calls *c, calls_type type)
     }
 }
 
-#define COMMON(name, type, kept_settings)                                                                            \
+#define BASIC(name, type, ...)                                                                                       \
     void call_virga_default_##name##_def(calls *c)                                                                   \
     {                                                                                                                \
         const virga_##name##_def def = virga_default_##name##_def();                                                 \
@@ -81,15 +81,18 @@ static void destroy_one(calls *c, calls_type type)
         virga_##name##_settings settings = virga_default_##name##_settings();                                        \
         if (h.object && calls_once_in(c, 2))                                                                         \
             virga_##name##_get(h.object, &settings);                                                                 \
-        kept_settings;                                                                                               \
+        __VA_ARGS__;                                                                                                 \
         const bool wrong = calls_once_in(c, 30);                                                                     \
         CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_##name##_set, h.object, \
                   wrong ? NULL : &settings);                                                                         \
-    }                                                                                                                \
-    void call_virga_##name##_stats_get(calls *c)                                                                     \
-    {                                                                                                                \
-        virga_##name##_stats stats;                                                                                  \
-        CALLS_DO(c, virga_##name##_stats_get, calls_pick(c, type).object, calls_once_in(c, 8) ? NULL : &stats);      \
+    }
+
+#define COMMON(name, type, ...)                                                                                 \
+    BASIC(name, type, __VA_ARGS__)                                                                              \
+    void call_virga_##name##_stats_get(calls *c)                                                                \
+    {                                                                                                           \
+        virga_##name##_stats stats;                                                                             \
+        CALLS_DO(c, virga_##name##_stats_get, calls_pick(c, type).object, calls_once_in(c, 8) ? NULL : &stats); \
     }
 
 #define WILD_SETTINGS(...)                                \
@@ -131,6 +134,7 @@ COMMON(glass, CALLS_GLASS,
 COMMON(water, CALLS_WATER, CALLS_WILD_ALL(c, &settings))
 COMMON(fluid, CALLS_FLUID, CALLS_WILD_ALL(c, &settings))
 COMMON(lens, CALLS_LENS, CALLS_WILD_ALL(c, &settings))
+BASIC(environment, CALLS_ENVIRONMENT, CALLS_WILD_ALL(c, &settings))
 
 /* ---- targets */
 
@@ -209,6 +213,40 @@ void call_virga_lens_draw_part(calls *c)
     uint32_t flags = with_target(h, target, CALLS_RECORDS | CALLS_INSIDE);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags, virga_lens_draw_part, h.object, cmd, target.object, calls_below(c, 4));
+}
+
+/* ---- the environment */
+
+void call_virga_environment_record(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_ENVIRONMENT);
+    virga_view view;
+    virga_environment_info info = {.kind = VIRGA_ENVIRONMENT_PANORAMA, .width = 8, .height = 8, .view = &view};
+    VkCommandBuffer cmd;
+    const bool wrong = calls_once_in(c, 20);
+    uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
+    calls_fill_view(c, &view);
+    calls_fill_image(c, VK_FORMAT_R16G16B16A16_SFLOAT, &info.image);
+    info.kind = calls_once_in(c, 3) ? VIRGA_ENVIRONMENT_PICTURE : VIRGA_ENVIRONMENT_PANORAMA;
+    info.view = calls_once_in(c, 8) ? NULL : &view;
+    info.width = calls_once_in(c, 8) ? 0 : info.width;
+    calls_floats(c, info.image_from_world, calls_once_in(c, 8) ? 9 : 0, -1, 1);
+    calls_floats(c, info.rest_sh[0], 27, -1, 2);
+    if (calls_cmd(c, h.context, &flags, &cmd))
+        CALLS_TRY(c, h.context, flags, virga_environment_record, h.object, cmd, wrong ? NULL : &info);
+}
+
+void call_virga_environment_harmonics(calls *c)
+{
+    float sh[9][3];
+    CALLS_DO(c, virga_environment_harmonics, calls_pick(c, CALLS_ENVIRONMENT).object, calls_once_in(c, 8) ? NULL : sh);
+}
+
+void call_virga_environment_panorama(calls *c)
+{
+    virga_image panorama;
+    CALLS_DO(c, virga_environment_panorama, calls_pick(c, CALLS_ENVIRONMENT).object,
+             calls_once_in(c, 8) ? NULL : &panorama);
 }
 
 /* Some effects of a scene may have recorded before one refuses. */

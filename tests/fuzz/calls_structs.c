@@ -214,6 +214,14 @@ void calls_fill_fluid_def(calls *c, virga_fluid_def *out)
         CALLS_WILD_ALL(c, out);
 }
 
+void calls_fill_environment_def(calls *c, virga_environment_def *out)
+{
+    *out = virga_default_environment_def();
+    SMALL(panorama_width, 1, 32);
+    if (!c->device->honest)
+        CALLS_WILD_ALL(c, out);
+}
+
 void calls_fill_lens_def(calls *c, virga_lens_def *out)
 {
     *out = virga_default_lens_def();

@@ -172,6 +172,7 @@ void calls_destroy(calls *c, calls_type type, void **object)
     case CALLS_GLASS: virga_glass_destroy((virga_glass **)object); break;
     case CALLS_FLUID: virga_fluid_destroy((virga_fluid **)object); break;
     case CALLS_LENS: virga_lens_destroy((virga_lens **)object); break;
+    case CALLS_ENVIRONMENT: virga_environment_destroy((virga_environment **)object); break;
     case CALLS_WATER: virga_water_destroy((virga_water **)object); break;
     case CALLS_SCENE: virga_scene_destroy((virga_scene **)object); break;
     default: virga_target_destroy((virga_target **)object); break;

@@ -3,6 +3,7 @@
 #define VIRGA_VIRGA_H
 #include <virga/base.h>
 #include <virga/drops.h>
+#include <virga/environment.h>
 #include <virga/fluid.h>
 #include <virga/glass.h>
 #include <virga/ground.h>
