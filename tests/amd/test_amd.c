@@ -162,6 +162,15 @@ static virga_fluid *open_fluid(virga_context *context)
     return fluid;
 }
 
+static virga_environment *open_environment(virga_context *context)
+{
+    virga_environment_def def = virga_default_environment_def();
+    virga_environment *environment;
+    def.panorama_width = 256;
+    assert_int_equal(virga_environment_create(context, &def, &environment), VIRGA_OK);
+    return environment;
+}
+
 /* Features that a rain can be made without. */
 static virga_rain *open_plain_rain(virga_context *context)
 {
@@ -180,6 +189,7 @@ static void compile_all(void)
     virga_scene *scene = open_scene(context);
     virga_lens *lens[2] = {open_lens(context, 0), open_lens(context, 1)};
     virga_fluid *fluid = open_fluid(context);
+    virga_environment *environment = open_environment(context);
     virga_rain *plain = open_plain_rain(context);
     for (int i = 0; i < TARGET_KINDS; i++) {
         VkRenderPass pass;
@@ -193,6 +203,7 @@ static void compile_all(void)
             driver.destroy_render_pass(driver.device, pass, NULL);
     }
     virga_rain_destroy(&plain);
+    virga_environment_destroy(&environment);
     virga_fluid_destroy(&fluid);
     virga_lens_destroy(&lens[0]);
     virga_lens_destroy(&lens[1]);
