@@ -63,10 +63,16 @@ static const struct entry *choose(calls *c)
 /* Most sequences begin with one object of each type, so that calls find what they need. */
 static void furnish(calls *c)
 {
-    static void (*const create[CALLS_TYPES])(calls *) = {
-        call_virga_rain_create,  call_virga_ground_create, call_virga_splash_create,
-        call_virga_glass_create, call_virga_fluid_create,  call_virga_lens_create,
-        call_virga_water_create, call_virga_scene_create,  call_virga_target_create};
+    static void (*const create[CALLS_TYPES])(calls *) = {[CALLS_RAIN] = call_virga_rain_create,
+                                                         [CALLS_GROUND] = call_virga_ground_create,
+                                                         [CALLS_SPLASH] = call_virga_splash_create,
+                                                         [CALLS_GLASS] = call_virga_glass_create,
+                                                         [CALLS_FLUID] = call_virga_fluid_create,
+                                                         [CALLS_LENS] = call_virga_lens_create,
+                                                         [CALLS_ENVIRONMENT] = call_virga_environment_create,
+                                                         [CALLS_WATER] = call_virga_water_create,
+                                                         [CALLS_SCENE] = call_virga_scene_create,
+                                                         [CALLS_TARGET] = call_virga_target_create};
     static void (*const attach[])(calls *) = {call_virga_rain_attach,  call_virga_splash_attach,
                                               call_virga_glass_attach, call_virga_water_attach,
                                               call_virga_lens_attach,  call_virga_scene_attach};
