@@ -192,12 +192,14 @@ void calls_keep(calls *c, calls_type type, uint32_t context, void *object)
 
 void calls_destroy_all(calls *c)
 {
+    enum { COUNT = CALLS_TYPES * CALLS_SLOTS, STRIDE = 37 }; /* a prime, so that each handle has its turn */
     const bool contexts_first = calls_once_in(c, 4);
+    const uint32_t first = (uint32_t)c->made % COUNT;
     for (int round = 0; round < 2; round++) {
         for (uint32_t i = 0; i < CALLS_CONTEXTS && contexts_first == !round; i++)
             virga_context_destroy(&c->contexts[i]);
-        for (uint32_t i = 0; i < CALLS_TYPES * CALLS_SLOTS && contexts_first == !!round; i++) {
-            const uint32_t at = (i * 7 + (uint32_t)c->made) % (CALLS_TYPES * CALLS_SLOTS);
+        for (uint32_t i = 0; i < COUNT && contexts_first == !!round; i++) {
+            const uint32_t at = (i * STRIDE + first) % COUNT;
             calls_destroy(c, (calls_type)(at / CALLS_SLOTS), &c->handles[at / CALLS_SLOTS][at % CALLS_SLOTS].object);
         }
     }
