@@ -99,6 +99,9 @@ static virga_result fit_device(const virga_context *context, void *given)
                         def->max_droplets, (unsigned long long)max);
     while (sizeof(virga_impacts_gpu) + def->max_returned_droplets * sizeof(virga_impact_gpu) > max)
         def->max_returned_droplets /= 2;
+    /* The budget may have asked for fewer. The water of each spawn may come back in the step in which it is read. */
+    if (def->max_returned_droplets < def->max_spawns)
+        def->max_returned_droplets = def->max_spawns;
     return requested != def->max_droplets ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
@@ -198,10 +201,12 @@ static const virga_effect_pass passes[] = {
     DRAW(sprite_write, .forms = VIRGA_SPLASH_FORMS),
 };
 
-/* The sizes that may shrink to fit the memory budget. Buffers that are shared with the ground have a fixed size. */
+/* The sizes that may shrink to fit the memory budget. Spawns are the ground's list, so their number stays; the ground
+ * reads as many returned droplets as there are, up to its own number. */
 static const virga_effect_pool pools[] = {
     POOL(max_splashes, 256, 0),
     POOL(max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK),
+    POOL(max_returned_droplets, 256, 256),
 };
 
 static void describe(const void *object, char *line, size_t size)

@@ -89,6 +89,36 @@ static void rain_over_the_budget_is_smaller_and_falls(void **state)
     virga_context_destroy(&context);
 }
 
+/* Splashes whose memory is nearly all for water that falls back: this list becomes smaller too, but not smaller than
+ * the spawns of a step, whose water may all come back at once. */
+static void list_of_returned_droplets_gives_way(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context_def def = gpu_context_def(f);
+    virga_splash_def splash_def = virga_default_splash_def();
+    splash_def.max_splashes = splash_def.max_droplets = 256;
+    splash_def.max_spawns = 16384;
+    def.pipeline_build_mode = VIRGA_PIPELINES_DEFERRED; /* none of which are built */
+    splash_def.max_returned_droplets = splash_def.max_spawns;
+    const VkDeviceSize min = virga_splash_estimate(&splash_def);
+    splash_def.max_returned_droplets = 1 << 20;
+    const VkDeviceSize max = virga_splash_estimate(&splash_def);
+    for (int i = 0; i < 3; i++) {
+        virga_context *context = NULL;
+        virga_splash *splash = NULL;
+        def.memory_budget = (VkDeviceSize[]){max / 2, min + min / 4, min / 2}[i];
+        watch.max_bytes = 0;
+        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+        gpu_forget_log(f);
+        assert_int_equal(virga_splash_create(context, &splash_def, &splash),
+                         i < 2 ? VIRGA_DEGRADED : VIRGA_ERROR_DEVICE_MEMORY);
+        assert_int_equal(f->lines[VIRGA_LOG_SHRUNK], i < 2); /* all other sizes are the least already */
+        virga_splash_destroy(&splash);
+        virga_context_destroy(&context);
+        assert_true(watch.max_bytes <= def.memory_budget);
+    }
+}
+
 static virga_scene_def scene_def_of_all(const virga_glass_def *pane)
 {
     virga_scene_def def = virga_default_scene_def();
@@ -155,6 +185,7 @@ int main(void)
         gpu_kept_test(budget_is_never_passed),
         gpu_kept_test(budget_is_for_what_is_used),
         gpu_kept_test(rain_over_the_budget_is_smaller_and_falls),
+        gpu_kept_test(list_of_returned_droplets_gives_way),
         gpu_kept_test(estimate_of_a_scene_is_enough),
         gpu_kept_test(scene_fits_into_any_budget),
     };

@@ -167,8 +167,8 @@ typedef struct virga_splash_settings {
 VIRGA_API virga_splash_settings virga_default_splash_settings(void);
 
 /* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools
- * (max_splashes, max_droplets) were made smaller to fit the context's memory_budget; the log says how small. Errors as
- * virga_context_create; *splash is NULL then. */
+ * (max_splashes, max_droplets, max_returned_droplets) were made smaller to fit the context's memory_budget; the log
+ * says how small. Errors as virga_context_create; *splash is NULL then. */
 VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_splash_def *def, virga_splash **splash);
 
 /* Destroys it and sets *splash to NULL. Accepts NULL. Frames in flight may still use it: their resources are freed when
