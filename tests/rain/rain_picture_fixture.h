@@ -76,7 +76,8 @@ typedef struct shot {
     host_buffer streaks, prepared, slots, order;
     float scene_depth; /* depth buffer value */
     bool give_depth, reversed;
-    int only; /* index of the one streak to draw */
+    int only;  /* index of the one streak to draw */
+    bool wide; /* draw it as a wide one */
 } shot;
 
 static inline void add_picture(shot *s, uint32_t width, uint32_t height)
@@ -194,7 +195,7 @@ static inline void record_prepared(shot *s, VkCommandBuffer cmd)
     for (size_t i = 0; i < 5; i++)
         rain_fixture_copy(cmd, &from[i], to[i]);
     if (s->only != EVERY_STREAK)
-        record_only(s->f.rain, cmd, (uint32_t)s->only);
+        record_only(s->f.rain, cmd, (uint32_t)s->only, s->wide);
 }
 
 static const host_image *layer_image(const shot *s)

@@ -124,6 +124,60 @@ static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
     close_shot(&s);
 }
 
+/* The mean over time and over a pixel of an ellipse that moves along the streak's path, times the streak's coverage. */
+static double moving_ellipse(const shot *s, const virga_streak_gpu *streak, uint32_t pixel)
+{
+    enum { TIMES = 64, SIDE = 4 };
+    const double half[2] = {0.5 * s->picture.width, 0.5 * s->picture.height};
+    double tail[2], along[2];
+    for (int i = 0; i < 2; i++) {
+        tail[i] = half[i] * (1 + (double)streak->tail[i]);
+        along[i] = half[i] * ((double)streak->head[i] - (double)streak->tail[i]);
+    }
+    const double path = hypot(along[0], along[1]);
+    const double width = low_half(streak->width_alpha), body = low_half(streak->body_wave);
+    uint32_t inside = 0;
+    for (int i = 0; i < TIMES * SIDE * SIDE; i++) {
+        const double x = pixel % s->picture.width + (i % SIDE + 0.5) / SIDE - tail[0];
+        const double y = pixel / s->picture.width + (i / SIDE % SIDE + 0.5) / SIDE - tail[1];
+        const double u = (y * along[0] - x * along[1]) / path;
+        const double v = (x * along[0] + y * along[1]) / path - path * (i / SIDE / SIDE + 0.5) / TIMES;
+        inside += hypot(2 * u / width, 2 * v / body) < 1;
+    }
+    return high_half(streak->width_alpha) / fmin(1, body / path) * inside / (TIMES * SIDE * SIDE);
+}
+
+/* A drop that the lens blurs by more than its path is a disc, not a rectangle. */
+static void a_streak_out_of_focus_has_round_ends(void **state)
+{
+    (void)state;
+    shot s;
+    double distance = 0, wrong = 0, sum = 0;
+    open_shot(&s, 40);
+    rain_of_big_drops(&s);
+    add_picture(&s, 960, 720);
+    s.f.settings.streak_gain = 100;
+    apply_settings(&s);
+    s.shutter_s = 1.0 / 2000; /* the path is shorter than the disc */
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    const uint32_t id = streak_list(&s)[choose_streak(&s, &distance)].id;
+    s.wide = true;
+    s.aperture_m = (float)(10 * distance / (fabs((double)s.camera.clip_from_view[5]) * 360)); /* 10 pixels */
+    const float *pixels = draw_only(&s, id);
+    const virga_streak_gpu *streak = streak_list(&s);
+    while (streak->id != id)
+        streak++;
+    for (uint32_t i = 0; i < s.picture.width * s.picture.height; i++) {
+        const double expected = moving_ellipse(&s, streak, i);
+        wrong += fabs((double)pixels[i * 4 + 3] - expected);
+        sum += expected;
+    }
+    printf("%.1f px wide, %.3f in all, wrong by %.3f\n", low_half(streak->width_alpha), sum, wrong);
+    assert_true(sum > 0.1 && wrong < 0.06 * sum);
+    close_shot(&s);
+}
+
 static void an_even_environment_gives_its_radiance_times_the_coverage(void **state)
 {
     (void)state;
@@ -390,6 +444,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thin_streak_covers_its_disc_at_any_resolution),
         cmocka_unit_test(a_streak_out_of_focus_covers_as_much_over_more),
+        cmocka_unit_test(a_streak_out_of_focus_has_round_ends),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
         cmocka_unit_test(there_is_haze_before_the_sky_by_default_and_none_without_depth),

@@ -80,7 +80,7 @@ static void draw_frame(shot *s, double dt_s)
     for (size_t i = 0; i < 4; i++)
         rain_fixture_copy(cmd, &(virga_rain_buffer){from[i]->buffer, 0, from[i]->size}, to[i]);
     if (s->only >= 0)
-        record_only(s->f.rain, cmd, (uint32_t)s->only);
+        record_only(s->f.rain, cmd, (uint32_t)s->only, false);
     picture_begin(&s->picture, cmd);
     REQUIRE(virga_rain_draw(s->f.rain, cmd, s->target) == VIRGA_OK);
     picture_end(&s->picture, cmd);

@@ -19,6 +19,7 @@ layout(location = 4) noperspective out vec2 motion; // px, see streak_write.comp
 struct Streak {
     vec3 center, rim; // radiance
     float alpha, half_width, body_px, way_px;
+    float focus; // [0; 1] 0: the lens blurs it by more than its width, so the inside of the drop does not show
     float wave_turns, wave_turns_at_tail, wave_size;
     vec3 middle_line; // see line_equation
     // of this vertex
@@ -46,6 +47,8 @@ Streak streak_corner(uint vertex)
     streak.alpha = width_alpha.y;
     streak.half_width = 0.5 * width_alpha.x;
     streak.body_px = body_wave.x;
+    const float blur = blur_px(0.5 * (uintBitsToFloat(depths.z) + uintBitsToFloat(depths.w)));
+    streak.focus = clamp(4.0 * (width_alpha.x / max(blur, 1e-3) - 1.05), 0.0, 1.0);
     streak.way_px = length(path);
     streak.wave_turns = wave_turns.x;
     streak.wave_turns_at_tail = wave_turns.y;

@@ -45,7 +45,7 @@ uint kind_of_streak(uint slot_index)
     const float body_px = diameter / (depth * view.pixel_angle);
     const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.streak_min_m &&
                          weight * streak_coverage(body_px, body_px, look.parts * path_px, blur) > MIN_COVERAGE;
-    return !visible ? NOT_PICKED : width_px > max(WIDE_PX, blur) ? SECOND_KIND : FIRST_KIND;
+    return !visible ? NOT_PICKED : max(width_px, blur) > WIDE_PX ? SECOND_KIND : FIRST_KIND;
 }
 
 void main()

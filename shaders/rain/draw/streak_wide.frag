@@ -1,5 +1,5 @@
-// streak_wide.frag - coverage and light of a wide streak at a pixel, premultiplied. The streak shows the inside of its
-// drop.
+// streak_wide.frag - coverage and light of a wide streak at a pixel, premultiplied. A drop in focus shows its inside;
+// one out of focus has the mean of its light.
 // One invocation per pixel of a wide streak. Reads: the scene's depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -13,7 +13,7 @@
 layout(location = 0) noperspective in vec4 streak_position;
 layout(location = 1) flat in vec4 center_alpha;
 layout(location = 2) flat in vec4 rim_wave;
-layout(location = 3) flat in vec3 shape;
+layout(location = 3) flat in vec4 shape;
 layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
@@ -45,22 +45,23 @@ void main()
 {
     // Before any discard: derivatives are undefined after it.
     const vec2 across = vec2(dFdx(streak_position.x), dFdy(streak_position.x));
-    const float half_width = shape.x, body_px = shape.y, path_px = shape.z;
+    const float half_width = shape.x, body_px = shape.y, path_px = shape.z, focus = shape.w;
     const float u = min(abs(streak_position.x) / half_width, 1.0);
-    float alpha = center_alpha.a * streak_profile(abs(streak_position.x), half_width) *
-                  streak_length(streak_begun(streak_position.y, path_px, body_px), streak_ends(path_px, body_px));
+    float alpha =
+        center_alpha.a * streak_capsule(abs(streak_position.x), half_width, streak_position.y, path_px, body_px);
     if (HAS_DEPTH)
         alpha *= soft_edge(streak_position.w, depth_terms);
     if (alpha <= 0.0)
         discard;
 
     const float width_blend = clamp(half_width - 0.75, 0.0, 1.0);
-    vec3 light = mix(center_alpha.rgb, rim_wave.rgb, width_blend * u * u + (1.0 - width_blend) * 0.5);
+    const float rim = mix(0.5, mix(1.0 / 3.0, u * u, focus), width_blend);
+    vec3 light = mix(center_alpha.rgb, rim_wave.rgb, rim);
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
     const float along = body_px > 0.0 ? clamp((streak_position.y - 0.5 * path_px) / (0.5 * body_px), -1.0, 1.0) : 0.0;
     const vec3 lamps = max(center_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
-    const float lens_blend = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
+    const float lens_blend = focus * clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
     light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamps, lens_blend);
     radiance = for_target(vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha));
     WRITE_MOTION(motion, alpha);

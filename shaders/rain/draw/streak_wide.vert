@@ -1,4 +1,5 @@
-// streak_wide.vert - vertices of wide streaks: at least WIDE_PX, so the inside of the drop shows.
+// streak_wide.vert - vertices of wide streaks: at least WIDE_PX, so their ends are round, and the inside of a drop in
+// focus shows.
 // One invocation per vertex. Reads: streaks. Writes: position, colours and shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +12,8 @@
 layout(location = 0) noperspective out vec4 streak_position;
 layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
-layout(location = 3) flat out vec3 shape;    // x: half width; y: length of the drop; z: length of the path (px)
+// x: half width; y: length of the drop; z: length of the path (px); w: focus, see Streak
+layout(location = 3) flat out vec4 shape;
 layout(location = 5) flat out vec4 depth_terms;
 
 #include "gpu/own_view.glsl"
@@ -23,7 +25,7 @@ void main()
     streak_position = vec4(streak.across, streak.along, streak_phase(streak), streak.distance);
     center_alpha = vec4(streak.center, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
-    shape = vec3(streak.half_width, streak.body_px, streak.way_px);
+    shape = vec4(streak.half_width, streak.body_px, streak.way_px, streak.focus);
     if (HAS_DEPTH)
         depth_terms = vec4(view.depth_a, view.depth_b, view.far_depth, view.soft_m);
 }
