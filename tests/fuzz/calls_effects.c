@@ -130,7 +130,8 @@ COMMON(rain, CALLS_RAIN, set_rain(c, &settings))
 COMMON(ground, CALLS_GROUND, set_ground(c, &settings))
 COMMON(splash, CALLS_SPLASH, CALLS_WILD_ALL(c, &settings))
 COMMON(glass, CALLS_GLASS,
-       WILD_SETTINGS(CALLS_BOOL(virga_glass_settings, compress), CALLS_BOOL(virga_glass_settings, opaque)))
+       WILD_SETTINGS(CALLS_BOOL(virga_glass_settings, compress), CALLS_BOOL(virga_glass_settings, opaque),
+                     CALLS_BOOL(virga_glass_settings, still_behind)))
 COMMON(water, CALLS_WATER, WILD_SETTINGS(CALLS_BOOL(virga_water_settings, hand_over)))
 COMMON(fluid, CALLS_FLUID, CALLS_WILD_ALL(c, &settings))
 COMMON(lens, CALLS_LENS, CALLS_WILD_ALL(c, &settings))
