@@ -31,8 +31,8 @@ float streak_ends(float way, float body)
 }
 
 // All of a wide streak. At `u` from its middle the body is a chord, shorter by sqrt(1 - u^2), so both ends are round: a
-// body that hardly moves, or is out of focus, is a disc. Where the chord is shorter than the path, it covers a pixel for
-// a shorter part of the time. `full` is that part in the middle, which the streak's coverage already has.
+// body that hardly moves, or is out of focus, is a disc. Where the chord is shorter than the path, it covers a pixel
+// for a shorter part of the time. `full` is that part in the middle, which the streak's coverage already has.
 //
 // Narrow streaks are too thin to show it and get the mean over all chords, as in streak_profile. In between, chords are
 // mixed, and `mean` keeps the integral over the streak: pi / 4 of body and width.
