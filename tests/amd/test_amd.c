@@ -195,6 +195,7 @@ static void compile_all(void)
         VkRenderPass pass;
         virga_target *target = open_target(context, &target_kinds[i], &pass);
         assert_int_equal(virga_scene_attach(scene, target), VIRGA_OK);
+        assert_int_equal(virga_ground_attach(virga_scene_ground(scene), target), VIRGA_OK);
         assert_int_equal(virga_rain_attach(plain, target), VIRGA_OK);
         assert_int_equal(virga_lens_attach(lens[0], target), VIRGA_OK);
         assert_int_equal(virga_lens_attach(lens[1], target), VIRGA_OK);
