@@ -168,6 +168,18 @@ static virga_result init(void *object)
     return VIRGA_OK;
 }
 
+/* At full resolution a texel of the work image is a pixel, so radii end at half of what they reach in texels of two. */
+static virga_result check_settings(const void *object, void *given, bool *changed)
+{
+    const virga_lens *lens = object;
+    virga_lens_settings *settings = given;
+    if (!lens->def.half_resolution)
+        settings->max_radius_px =
+            virga_clamp_setting_float(&lens->base.context->log, "lens_settings.max_radius_px, at full resolution",
+                                      settings->max_radius_px, 1, VIRGA_LENS_MAX_RADIUS, changed);
+    return VIRGA_OK;
+}
+
 static virga_result apply_settings(void *object, void *given)
 {
     virga_lens *lens = object;
@@ -225,6 +237,7 @@ const virga_effect_type lens_type = {
     .init = init,
     .describe = describe,
     .read_statistics = lens_read_statistics,
+    .check_settings = check_settings,
     .apply_settings = apply_settings,
     .draw = lens_type_draw,
     .max_views = offsetof(virga_lens_def, max_views),

@@ -110,6 +110,23 @@ static void wrong_arguments_are_refused_with_a_line(void **state)
     lens_fixture_close(&f);
 }
 
+static void radii_beyond_the_work_image_are_cut_with_a_line(void **state)
+{
+    (void)state;
+    for (uint32_t half = 0; half < 2; half++) {
+        lens_fixture f;
+        lens_fixture_open(&f, 16, 16, half);
+        f.settings.max_radius_px = 63;
+        assert_int_equal(virga_lens_set(f.lens, &f.settings), VIRGA_OK);
+        f.settings.max_radius_px = 126;
+        const uint32_t lines = f.log_lines;
+        assert_int_equal(virga_lens_set(f.lens, &f.settings), half ? VIRGA_OK : VIRGA_DEGRADED);
+        assert_int_equal(f.log_lines - lines, half ? 0 : 1);
+        assert_true(half || strstr(f.log[lines % 8], "max_radius_px, at full resolution"));
+        lens_fixture_close(&f);
+    }
+}
+
 /* ---- the draw */
 
 static void a_draw_puts_the_picture_into_its_viewport(void **state)
@@ -153,6 +170,7 @@ int main(void)
         cmocka_unit_test(the_same_picture_gives_the_same_bits),
         cmocka_unit_test(a_draw_puts_the_picture_into_its_viewport),
         cmocka_unit_test(wrong_arguments_are_refused_with_a_line),
+        cmocka_unit_test(radii_beyond_the_work_image_are_cut_with_a_line),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
