@@ -9,9 +9,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 if [ ! -f "$build/build.ninja" ]; then
-    # Its shaders are those of the build whose test this is.
-    "$source/tests/gpu/compiled_shader.sh" "$2" --native-file >"$work/native.ini"
-    meson setup "$build" "$source" --native-file "$work/native.ini" \
+    # Its shaders are those of the build whose test this is. Meson reads the file again whenever a meson.build changes.
+    "$source/tests/gpu/compiled_shader.sh" "$2" --native-file >"$build.ini"
+    meson setup "$build" "$source" --native-file "$build.ini" \
         -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled -Dview=disabled \
         -Ddrive=disabled -Doptimization=0 \
         >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
