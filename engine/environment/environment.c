@@ -72,12 +72,12 @@ enum { BIND_FLAT = 3, BIND_CUBE, BIND_PANORAMA, BINDINGS };
 
 /* As shaders/environment declares them. Passes read the flat image or the cube map. */
 static const virga_binding_kind bindings[BINDINGS] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(info_ring), sizeof(virga_environment_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(sums)},                                   /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(result)},                                 /* 2 */
-    [BIND_FLAT] = {SAMPLED, COMPUTE},                                                    /* 3 */
-    [BIND_CUBE] = {SAMPLED, COMPUTE},                                                    /* 4 */
-    [BIND_PANORAMA] = {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(panorama)},                /* 5 */
+    RING(COMPUTE, info_ring, virga_environment_gpu), /* 0 */
+    BUFFER(sums),                                    /* 1 */
+    BUFFER(result),                                  /* 2 */
+    [BIND_FLAT] = {SAMPLED, COMPUTE},                /* 3 */
+    [BIND_CUBE] = {SAMPLED, COMPUTE},                /* 4 */
+    [BIND_PANORAMA] = STORAGE_IMAGE(panorama),       /* 5 */
 };
 
 static const virga_effect_layout layouts[] = {{AT(bindings), bindings, BINDINGS, 1, sizeof(uint32_t)}};
@@ -104,23 +104,10 @@ static void read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
 }
 
 static const virga_effect_type environment_type = {
-    .name = "the environment",
-    .log_name = "environment_settings",
-    .size = sizeof(virga_environment),
-    .def = {"environment_def", sizeof(virga_environment_def), AT(def), def_rows, VIRGA_ROWS(def_rows)},
-    .settings = {"environment_settings", sizeof(virga_environment_settings), AT(settings), setting_rows,
-                 VIRGA_ROWS(setting_rows)},
-    VIRGA_TABLE(buffer),
-    VIRGA_TABLE(ring),
+    VIRGA_EFFECT_TABLES(environment, "the environment", "environment_settings"),
     VIRGA_TABLE(image),
-    VIRGA_TABLE(layout),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
-    .readback_name = "environment.readback",
     .readback_bytes = 27 * sizeof(float),
-    .count = count,
-    .describe = describe,
-    .read_statistics = read_statistics,
+    VIRGA_CALLBACKS(read_statistics),
 };
 
 VIRGA_EFFECT_FUNCTIONS(environment)

@@ -118,40 +118,40 @@ static const virga_binding_kind grid_bindings[] = {
 };
 
 static const virga_binding_kind add_bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(add_ring), sizeof(virga_fluid_add_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                               /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                               /* 2 */
-    [FLUID_BIND_ADDED] = {STORAGE, COMPUTE},                                          /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                      /* 4 */
+    RING(COMPUTE, add_ring, virga_fluid_add_gpu), /* 0 */
+    BUFFER(state),                                /* 1 */
+    BUFFER(slots),                                /* 2 */
+    [FLUID_BIND_ADDED] = {STORAGE, COMPUTE},      /* 3 */
+    BUFFER(slot_pressures),                       /* 4 */
 };
 
 static const virga_binding_kind bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_fluid_step_gpu)},    /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                    /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                                    /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                               /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                         /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                              /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                      /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(body_states)},                              /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                           /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                   /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                   /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(positions)},                                /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                    /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(walls)},                                    /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 14 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                               /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                    /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(positions)},                                 /* 17 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                     /* 18 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                     /* 19 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                     /* 20 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(touches)},                                  /* 21 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(touches)},                                   /* 22 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(maps)},                                     /* 23 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(maps)},                                      /* 24 */
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(shape_ring), sizeof(virga_fluid_shapes_gpu)}, /* 25 */
+    RING(COMPUTE, step_ring, virga_fluid_step_gpu),    /* 0 */
+    BUFFER(state),                                     /* 1 */
+    BUFFER(slots),                                     /* 2 */
+    BUFFER(grid.state),                                /* 3 */
+    BUFFER(grid.cell_starts),                          /* 4 */
+    BUFFER(grid.sorted),                               /* 5 */
+    BUFFER(grid.sorted_indices),                       /* 6 */
+    BUFFER(body_states),                               /* 7 */
+    BUFFER(slot_pressures),                            /* 8 */
+    BUFFER(solved),                                    /* 9 */
+    BUFFER(grid.sorted_velocities),                    /* 10 */
+    BUFFER(positions),                                 /* 11 */
+    BUFFER(moved),                                     /* 12 */
+    BUFFER(walls),                                     /* 13 */
+    BUFFER(lists),                                     /* 14 */
+    TEXEL_BUFFER(grid.sorted),                         /* 15 */
+    TEXEL_BUFFER(grid.sorted_velocities),              /* 16 */
+    TEXEL_BUFFER(positions),                           /* 17 */
+    TEXEL_BUFFER(moved),                               /* 18 */
+    TEXEL_BUFFER(walls),                               /* 19 */
+    TEXEL_BUFFER(lists),                               /* 20 */
+    BUFFER(touches),                                   /* 21 */
+    TEXEL_BUFFER(touches),                             /* 22 */
+    BUFFER(maps),                                      /* 23 */
+    TEXEL_BUFFER(maps),                                /* 24 */
+    RING(COMPUTE, shape_ring, virga_fluid_shapes_gpu), /* 25 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -281,12 +281,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(fluid)
 
 const virga_effect_type fluid_type = {
     VIRGA_EFFECT_TYPE(fluid, "fluid", "fluid_settings"),
-    .fit_device = fit_device,
-    .fill_settings = fill_settings,
-    .check_settings = check_settings,
-    .pass_constant = pass_constant,
-    .extra_bytes = extra_bytes,
-    .destroy = destroy,
+    VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, pass_constant, extra_bytes, destroy),
     .lost = fluid_lost,
 };
 

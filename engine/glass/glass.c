@@ -262,24 +262,24 @@ enum { BIND_IMPACTS = 14 };
 
 /* The same bindings as in shaders/glass, where each file declares those it uses. */
 static const virga_binding_kind bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_glass_tick_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                                 /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                                  /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(claims)},                                /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(occupants)},                             /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                                  /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                                /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(seeds)},                                 /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(ranks)},                                 /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid)},                                  /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                               /* 12 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(nodes)},                                  /* 13 */
-    [BIND_IMPACTS] = {STORAGE, COMPUTE},                                                /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 15 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(active)},                                /* 16 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                           /* 17 */
+    RING(COMPUTE, tick_ring, virga_glass_tick_gpu), /* 0 */
+    BUFFER(state),                                  /* 1 */
+    BUFFER(drops),                                  /* 2 */
+    BUFFER(picks),                                  /* 3 */
+    BUFFER(list),                                   /* 4 */
+    BUFFER(claims),                                 /* 5 */
+    BUFFER(occupants),                              /* 6 */
+    BUFFER(film),                                   /* 7 */
+    BUFFER(passed),                                 /* 8 */
+    BUFFER(seeds),                                  /* 9 */
+    BUFFER(ranks),                                  /* 10 */
+    BUFFER(grid),                                   /* 11 */
+    BUFFER(surface),                                /* 12 */
+    TEXEL_BUFFER(nodes),                            /* 13 */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},            /* 14 */
+    BUFFER(moved),                                  /* 15 */
+    BUFFER(active),                                 /* 16 */
+    BUFFER(film_blocks),                            /* 17 */
 };
 
 enum { LAYOUT_STEP, LAYOUT_PICTURE };
@@ -409,17 +409,10 @@ const virga_effect_type glass_type = {
     VIRGA_EFFECT_TYPE(glass, "a pane", "glass_settings"),
     VIRGA_EFFECT_DRAWS(glass),
     .draw_layout = LAYOUT_PICTURE,
-    .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
-    .destroy = destroy,
-    .fill_settings = fill_settings,
-    .check_settings = check_settings,
-    .apply_settings = apply_settings,
+    VIRGA_CALLBACKS(extra_bytes, init, create, destroy, fill_settings, check_settings, apply_settings, state_loaded),
     .draw_constant = glass_draw_constant,
     .lost = glass_lost,
     VIRGA_TABLE(state_row),
-    .state_loaded = state_loaded,
 };
 
 VkDescriptorSet glass_write_set(virga_glass *glass)

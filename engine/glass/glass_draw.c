@@ -569,9 +569,7 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
 {
     virga_context *context = glass->base.context;
     const virga_effect_target *found;
-    virga_result result =
-        virga_effect_check_draw(&glass->base, call, cmd, target, prepared,
-                                glass->ticks ? virga_effect_ready(&glass->base) : VIRGA_NOT_READY, &found);
+    virga_result result = virga_effect_check_draw(&glass->base, call, cmd, target, prepared, glass->ticks, &found);
     if (result)
         return result;
     const virga_pipeline *used[DRAWS];

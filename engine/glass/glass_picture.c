@@ -51,36 +51,36 @@ enum { BIND_RELIEF = 12, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIE
 
 /* The same bindings as in shaders/glass, where each file declares those it uses. */
 const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring), sizeof(glass_view_block)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                                              /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                                               /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                                             /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                                            /* 4 */
-    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(nodes)},                                      /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.balls)},                                      /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.tiles)},                                      /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.entries)},                                    /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.mist)},                                       /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                                               /* 10 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                                           /* 11 */
-    [BIND_RELIEF] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.relief)},                     /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)}, /* 13 copies of the plate, written */
+    RING(VIRGA_ALL_STAGES, picture.view_ring, glass_view_block), /* 0 */
+    BUFFER(drops),                                               /* 1 */
+    BUFFER(film),                                                /* 2 */
+    BUFFER(passed),                                              /* 3 */
+    BUFFER(surface),                                             /* 4 */
+    TEXEL_BUFFER_IN(VIRGA_ALL_STAGES, nodes),                    /* 5 */
+    BUFFER(picture.balls),                                       /* 6 */
+    BUFFER(picture.tiles),                                       /* 7 */
+    BUFFER(picture.entries),                                     /* 8 */
+    BUFFER(picture.mist),                                        /* 9 */
+    BUFFER(list),                                                /* 10 */
+    STORAGE_IMAGE(picture.map),                                  /* 11 */
+    [BIND_RELIEF] = SAMPLED_IMAGE(FRAGMENT, picture.relief),     /* 12 */
+    STORAGE_IMAGE(picture.copies),                               /* 13 copies of the plate, written */
     {SAMPLED, VIRGA_ALL_STAGES, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
     [BIND_DEPTH] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 15 */
     [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 16 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.written)},          /* 17 contents of tiles */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.work)},             /* 18 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picture.corners)}, /* 19 indices of the draws */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.relief)},              /* 20 */
+    BUFFER(picture.written),                      /* 17 contents of tiles */
+    BUFFER(picture.work),                         /* 18 */
+    BUFFER_IN(VIRGA_ALL_STAGES, picture.corners), /* 19 indices of the draws */
+    STORAGE_IMAGE(picture.relief),                /* 20 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.mist_map), .sampler = VIRGA_SAMPLER_LINEAR}, /* 21 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                             /* 22 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                                        /* 23 */
+    BUFFER(state),                                                                                  /* 22 */
+    SAMPLED_IMAGE(COMPUTE, picture.map),                                                            /* 23 */
     [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                            /* 24 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                                       /* 25 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                    /* 26 */
-    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                 /* 27 */
-    [BIND_VIEWS] = {TEXELS, FRAGMENT},                          /* 28 the ring's buffer, as texels */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.textures)}, /* 29 */
+    BUFFER(film_blocks),                                                                            /* 25 */
+    STORAGE_IMAGE(picture.paper_map),                                                               /* 26 */
+    SAMPLED_IMAGE(FRAGMENT, picture.paper_map),                                                     /* 27 */
+    [BIND_VIEWS] = {TEXELS, FRAGMENT}, /* 28 the ring's buffer, as texels */
+    STORAGE_IMAGE(picture.textures),   /* 29 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.textures), .sampler = VIRGA_SAMPLER_LINEAR}, /* 30 */
 };
 

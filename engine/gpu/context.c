@@ -200,6 +200,13 @@ void virga_context_destroy(virga_context **context)
     object->lost = true; /* calls on them are refused from now on */
 }
 
+virga_result virga_context_check_create(virga_context *context, bool complete, const char *call)
+{
+    if (!context || !complete)
+        return virga_wrong_argument(context ? &context->log : NULL, "%s: NULL argument", call);
+    return context->lost ? VIRGA_ERROR_DEVICE_LOST : VIRGA_OK;
+}
+
 void virga_context_join(virga_context *context)
 {
     context->members++;

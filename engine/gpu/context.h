@@ -73,4 +73,8 @@ struct virga_context {
 void virga_context_join(virga_context *context);
 void virga_context_leave(virga_context *context);
 
+/* The common checks of a public function that creates something: `complete` says that no argument is NULL besides the
+ * context. */
+virga_result virga_context_check_create(virga_context *context, bool complete, const char *call);
+
 #endif

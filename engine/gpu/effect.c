@@ -282,11 +282,9 @@ virga_result virga_effect_create(virga_context *context, const virga_effect_type
     _Alignas(16) char def[VIRGA_EFFECT_MAX_DEF];
     if (object)
         *object = NULL;
-    if (!context || !given || !object)
-        return virga_wrong_argument(context ? &context->log : NULL, "%s: NULL argument", call);
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_result result = check_def(&context->log, type, given, def);
+    virga_result result = virga_context_check_create(context, given && object, call);
+    if (!result)
+        result = check_def(&context->log, type, given, def);
     if (result)
         return result;
     virga_effect *made = NULL;

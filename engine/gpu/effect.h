@@ -260,18 +260,40 @@ typedef struct virga_effect_type {
 /* The fields .<row>s and .<row>_count for a table of that name, e.g. VIRGA_TABLE(image) for the table `images`. */
 #define VIRGA_TABLE(row) .row##s = row##s, .row##_count = VIRGA_ROWS(row##s)
 
-/* The fields that are the same for all types, for an effect that names its parts like the others: virga_<name>, its
- * _def and _settings, <name>_readback; tables def_rows, setting_rows, buffers, rings, layouts, passes and pools;
- * callbacks check_def, count, describe and <name>_read_statistics. */
-#define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                                                          \
+/* The fields of callbacks whose functions have the names of the fields, e.g. VIRGA_CALLBACKS(init, create) for
+ * .init = init, .create = create. At most ten. */
+/* clang-format off */
+#define VIRGA_CALLBACKS(...) VIRGA_CALLBACKS_OF(__VA_ARGS__, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)(__VA_ARGS__)
+#define VIRGA_CALLBACKS_OF(a, b, c, d, e, f, g, h, i, j, count, ...) VIRGA_CALLBACKS_##count
+#define VIRGA_CALLBACKS_1(name) .name = name
+#define VIRGA_CALLBACKS_2(name, ...) .name = name, VIRGA_CALLBACKS_1(__VA_ARGS__)
+#define VIRGA_CALLBACKS_3(name, ...) .name = name, VIRGA_CALLBACKS_2(__VA_ARGS__)
+#define VIRGA_CALLBACKS_4(name, ...) .name = name, VIRGA_CALLBACKS_3(__VA_ARGS__)
+#define VIRGA_CALLBACKS_5(name, ...) .name = name, VIRGA_CALLBACKS_4(__VA_ARGS__)
+#define VIRGA_CALLBACKS_6(name, ...) .name = name, VIRGA_CALLBACKS_5(__VA_ARGS__)
+#define VIRGA_CALLBACKS_7(name, ...) .name = name, VIRGA_CALLBACKS_6(__VA_ARGS__)
+#define VIRGA_CALLBACKS_8(name, ...) .name = name, VIRGA_CALLBACKS_7(__VA_ARGS__)
+#define VIRGA_CALLBACKS_9(name, ...) .name = name, VIRGA_CALLBACKS_8(__VA_ARGS__)
+#define VIRGA_CALLBACKS_10(name, ...) .name = name, VIRGA_CALLBACKS_9(__VA_ARGS__)
+/* clang-format on */
+
+/* The names and tables of a type, for an effect that names its parts like the others: virga_<name>, its _def and
+ * _settings; tables def_rows, setting_rows, buffers, rings, layouts and passes; callbacks count and describe. */
+#define VIRGA_EFFECT_TABLES(effect, title, settings_log_name)                                                        \
     .name = title, .log_name = settings_log_name, .size = sizeof(virga_##effect),                                    \
     .def = {#effect "_def", sizeof(virga_##effect##_def), offsetof(virga_##effect, def), def_rows,                   \
             VIRGA_ROWS(def_rows)},                                                                                   \
     .settings = {#effect "_settings", sizeof(virga_##effect##_settings), offsetof(virga_##effect, settings),         \
                  setting_rows, VIRGA_ROWS(setting_rows)},                                                            \
     VIRGA_TABLE(buffer), VIRGA_TABLE(ring), VIRGA_TABLE(layout), .passes = passes, .pass_count = VIRGA_ROWS(passes), \
-    VIRGA_TABLE(pool), .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback),            \
-    .check_def = check_def, .count = count, .describe = describe, .read_statistics = effect##_read_statistics
+    .readback_name = #effect ".readback", .count = count, .describe = describe
+
+/* The same for an effect that also has the table pools, <name>_readback, the callbacks check_def and
+ * <name>_read_statistics. */
+#define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                   \
+    VIRGA_EFFECT_TABLES(effect, title, settings_log_name), VIRGA_TABLE(pool), \
+        .readback_bytes = sizeof(effect##_readback), .check_def = check_def,  \
+        .read_statistics = effect##_read_statistics
 
 /* The fields of an effect that draws: the table `images`, <name>_draws, the settings' `lighting`. */
 #define VIRGA_EFFECT_DRAWS(effect)                                                                          \
@@ -363,6 +385,26 @@ typedef struct virga_effect_type {
     virga_result virga_##name##_attach(virga_##name *object, const virga_target *target)                            \
     {                                                                                                               \
         return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID; \
+    }
+
+/* The public prepares of an effect, and the callback `prepare`. They use <name>_prepare. */
+#define VIRGA_EFFECT_PREPARE_FUNCTIONS(name)                                                                    \
+    virga_result virga_##name##_prepare_view(virga_##name *object, VkCommandBuffer cmd, const virga_view *view, \
+                                             double time_s, virga_prepared *prepared)                           \
+    {                                                                                                           \
+        if (prepared)                                                                                           \
+            *prepared = 0;                                                                                      \
+        return object ? name##_prepare(object, cmd, view, time_s, prepared) : VIRGA_ERROR_INVALID;              \
+    }                                                                                                           \
+    virga_result virga_##name##_prepare(virga_##name *object, VkCommandBuffer cmd, const virga_view *view,      \
+                                        double time_s)                                                          \
+    {                                                                                                           \
+        return virga_##name##_prepare_view(object, cmd, view, time_s, NULL);                                    \
+    }                                                                                                           \
+    static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,       \
+                                virga_prepared *prepared)                                                       \
+    {                                                                                                           \
+        return virga_##name##_prepare_view(object, cmd, view, time_s, prepared);                                \
     }
 
 /* A ring's buffer, and how much of the current frame's part is used. */
@@ -578,11 +620,11 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
 bool virga_effect_wants_motion(const virga_effect *effect);
 
 /* The common checks of a draw. Selects the view, and returns the target's pipelines in *found. VIRGA_NOT_READY if the
- * target is not attached or `prepared` is 0, as nothing was prepared in this frame; this is logged once, if `ready` is
- * VIRGA_OK. VIRGA_ERROR_INVALID if there is no such view, or if its depth and that of the target run in different
- * directions. */
+ * target is not attached or `prepared` is 0, as nothing was prepared in this frame; this is logged once, if the effect
+ * is ready and was `stepped`: without a step nothing can be prepared. VIRGA_ERROR_INVALID if there is no such view, or
+ * if its depth and that of the target run in different directions. */
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                     const virga_target *target, virga_prepared prepared, virga_result ready,
+                                     const virga_target *target, virga_prepared prepared, bool stepped,
                                      const virga_effect_target **found);
 
 /* The same for draws that need no prepare. *found is NULL for a target that is not attached. */

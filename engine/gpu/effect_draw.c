@@ -199,12 +199,13 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
 }
 
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                     const virga_target *target, virga_prepared prepared, virga_result ready,
+                                     const virga_target *target, virga_prepared prepared, bool stepped,
                                      const virga_effect_target **found)
 {
     virga_result result = virga_effect_find_target(effect, call, cmd, target, found);
     if (result)
         return result;
+    const virga_result ready = stepped ? virga_effect_ready(effect) : VIRGA_NOT_READY;
     if (!*found || !prepared)
         return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
     result = virga_effect_find_view(effect, call, prepared);

@@ -66,6 +66,16 @@
 #define DYNAMIC         VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
 #define DYNAMIC_STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC
 
+/* Members of the object. BUFFER and the like: for compute shaders alone; *_IN: for these stages. */
+#define BUFFER(member)                  BUFFER_IN(COMPUTE, member)
+#define BUFFER_IN(stages, member)       {STORAGE, stages, VIRGA_SOURCE_BUFFER, AT(member)}
+#define TEXEL_BUFFER(member)            TEXEL_BUFFER_IN(COMPUTE, member)
+#define TEXEL_BUFFER_IN(stages, member) {TEXELS, stages, VIRGA_SOURCE_TEXELS, AT(member)}
+#define STORAGE_IMAGE(member)           {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(member)}
+#define SAMPLED_IMAGE(stages, member)   {SAMPLED, stages, VIRGA_SOURCE_IMAGE, AT(member)}
+/* A ring, whose block of this type is at a dynamic offset. */
+#define RING(stages, member, type)      {DYNAMIC, stages, VIRGA_SOURCE_RING, AT(member), sizeof(type)}
+
 /* ---- passes: what follows the name are fields of virga_effect_pass, by name */
 
 #define PASS(pass, ...) ROW(ROW_PASS, EFFECT, , pass, pass, __VA_ARGS__)

@@ -340,11 +340,9 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
 {
     if (target)
         *target = NULL;
-    if (!context || !def || !target)
-        return virga_wrong_argument(context ? &context->log : NULL, "virga_target_create: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_result result = check_def(&context->log, def);
+    virga_result result = virga_context_check_create(context, def && target, "virga_target_create");
+    if (!result)
+        result = check_def(&context->log, def);
     if (!result)
         result = check_formats(context, def);
     if (!result)

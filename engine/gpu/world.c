@@ -86,11 +86,6 @@ static double determinant(double m[3][3])
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-typedef struct camera {
-    double position_m[3];
-    float view_from_world[16], clip_from_view[16];
-} camera;
-
 /* Where the host's view space is: position = -transposed rotation x translation. */
 static void find_position(const float view_from_world[16], double position[3])
 {
@@ -139,40 +134,39 @@ static void fill_projection(const virga_world *world, const float p[16], const d
     }
 }
 
+/* Writes a camera of Virga's into these members of a view. A camera that is refused changes nothing. */
 static virga_result convert(const virga_world *world, const float view_from_world[16], const float clip_from_view[16],
-                            const double *position, camera *out)
+                            const double *position, double out_position_m[3], float out_view_from_world[16],
+                            float out_clip_from_view[16])
 {
     if (!is_sound(world) || !view_from_world || !clip_from_view || !(fabsf(clip_from_view[11]) > 0))
         return VIRGA_ERROR_INVALID;
     double turn[3] = {1, 1, clip_from_view[11] > 0 ? -1 : 1}, found[3];
     find_position(view_from_world, found);
-    fill_rotation(world, view_from_world, turn, out->view_from_world);
-    fill_projection(world, clip_from_view, turn, out->clip_from_view);
-    return virga_world_position(world, position ? position : found, out->position_m);
+    const virga_result result = virga_world_position(world, position ? position : found, out_position_m);
+    if (result)
+        return result;
+    fill_rotation(world, view_from_world, turn, out_view_from_world);
+    fill_projection(world, clip_from_view, turn, out_clip_from_view);
+    return VIRGA_OK;
 }
 
 virga_result virga_world_camera(const virga_world *world, const float view_from_world[16],
                                 const float clip_from_view[16], const double *position, virga_view *view)
 {
-    camera made;
-    if (!view || convert(world, view_from_world, clip_from_view, position, &made))
+    if (!view || convert(world, view_from_world, clip_from_view, position, view->position_m, view->view_from_world,
+                         view->clip_from_view))
         return VIRGA_ERROR_INVALID;
-    memcpy(view->position_m, made.position_m, sizeof view->position_m);
-    memcpy(view->view_from_world, made.view_from_world, sizeof view->view_from_world);
-    memcpy(view->clip_from_view, made.clip_from_view, sizeof view->clip_from_view);
     /* depth = -p10 + p14 / distance: it falls with the distance where p14 > 0. */
-    view->reversed_depth = made.clip_from_view[14] > 0;
+    view->reversed_depth = view->clip_from_view[14] > 0;
     return virga_world_open_camera(world, view_from_world, clip_from_view, position, view);
 }
 
 virga_result virga_world_open_camera(const virga_world *world, const float view_from_world[16],
                                      const float clip_from_view[16], const double *position, virga_view *view)
 {
-    camera made;
-    if (!view || convert(world, view_from_world, clip_from_view, position, &made))
-        return VIRGA_ERROR_INVALID;
-    memcpy(view->open_position_m, made.position_m, sizeof view->open_position_m);
-    memcpy(view->open_view_from_world, made.view_from_world, sizeof view->open_view_from_world);
-    memcpy(view->open_clip_from_view, made.clip_from_view, sizeof view->open_clip_from_view);
-    return VIRGA_OK;
+    return view && !convert(world, view_from_world, clip_from_view, position, view->open_position_m,
+                            view->open_view_from_world, view->open_clip_from_view)
+               ? VIRGA_OK
+               : VIRGA_ERROR_INVALID;
 }

@@ -164,34 +164,34 @@ enum {
 
 /* The bindings as the files in shaders/ground declare them. */
 static const virga_binding_kind bindings[] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_ground_tick_gpu)}, /* 0 */
-    {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring), sizeof(ground_lists)},           /* 1 tile lists */
-    [BIND_IMPACTS] = {STORAGE, COMPUTE},                         /* 2 impacts or returned droplets */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(floors)},         /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cells)},          /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(stirs)},          /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(arrivals)},       /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spots)},          /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cached_cells)},   /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(counts)},         /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(landings)},       /* 10 */
-    [BIND_DEPTH] = {SAMPLED, COMPUTE},                           /* 11 */
-    [BIND_SURFACE] = {SAMPLED, COMPUTE},                         /* 12 */
-    [BIND_WET_MAP] = {IMAGE, COMPUTE},                           /* 13 */
-    [BIND_SPOT_MAP] = {IMAGE, COMPUTE},                          /* 14 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(rings)}, /* 15 */
-    [BIND_WAVES] = {SAMPLED, FRAGMENT},                          /* 16 */
-    [BIND_MATERIALS] = {SAMPLED, COMPUTE},                       /* 17 */
-    [BIND_RULES] = {UNIFORM, COMPUTE},                           /* 18 rules of the splashes */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawns)},         /* 19 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(swings)},         /* 20 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(floors)},          /* 21 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(cells)},           /* 22 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(far.floors)},     /* 23 */
-    [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},                       /* 24 */
-    [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE},                     /* 25 */
-    [BIND_FAR_MAP] = {IMAGE, COMPUTE},                           /* 26 */
-    [BIND_WATER] = {STORAGE, COMPUTE},                           /* 27 particles of simulated water */
+    RING(VIRGA_ALL_STAGES, tick_ring, virga_ground_tick_gpu),                           /* 0 */
+    {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring), sizeof(ground_lists)}, /* 1 tile lists */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},     /* 2 impacts or returned droplets */
+    BUFFER(floors),                          /* 3 */
+    BUFFER(cells),                           /* 4 */
+    BUFFER(stirs),                           /* 5 */
+    BUFFER(arrivals),                        /* 6 */
+    BUFFER(spots),                           /* 7 */
+    BUFFER(cached_cells),                    /* 8 */
+    BUFFER(counts),                          /* 9 */
+    BUFFER(landings),                        /* 10 */
+    [BIND_DEPTH] = {SAMPLED, COMPUTE},       /* 11 */
+    [BIND_SURFACE] = {SAMPLED, COMPUTE},     /* 12 */
+    [BIND_WET_MAP] = {IMAGE, COMPUTE},       /* 13 */
+    [BIND_SPOT_MAP] = {IMAGE, COMPUTE},      /* 14 */
+    BUFFER_IN(COMPUTE | VERTEX, rings),      /* 15 */
+    [BIND_WAVES] = {SAMPLED, FRAGMENT},      /* 16 */
+    [BIND_MATERIALS] = {SAMPLED, COMPUTE},   /* 17 */
+    [BIND_RULES] = {UNIFORM, COMPUTE},       /* 18 rules of the splashes */
+    BUFFER(spawns),                          /* 19 */
+    BUFFER(swings),                          /* 20 */
+    TEXEL_BUFFER(floors),                    /* 21 */
+    TEXEL_BUFFER(cells),                     /* 22 */
+    BUFFER(far.floors),                      /* 23 */
+    [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},   /* 24 */
+    [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE}, /* 25 */
+    [BIND_FAR_MAP] = {IMAGE, COMPUTE},       /* 26 */
+    [BIND_WATER] = {STORAGE, COMPUTE},       /* 27 particles of simulated water */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -340,14 +340,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(ground)
 const virga_effect_type ground_type = {
     VIRGA_EFFECT_TYPE(ground, "the ground", "ground_settings"),
     VIRGA_TABLE(image),
-    .fit_device = fit_device,
-    .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
-    .destroy = destroy,
-    .fill_settings = fill_settings,
-    .check_settings = check_settings,
-    .apply_settings = apply_settings,
+    VIRGA_CALLBACKS(fit_device, extra_bytes, init, create, destroy, fill_settings, check_settings, apply_settings),
     .draws = ground_draws,
     .draw_count = 1,
     .draw_layout = 1,

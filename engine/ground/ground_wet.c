@@ -23,13 +23,13 @@ enum { BIND_WETNESS = 1, BIND_SPOTS, BIND_RIPPLES, BIND_FAR_WETNESS, BIND_DEPTH,
 
 /* As shaders/ground/wet.frag declares them. */
 const virga_binding_kind ground_wet_bindings[GROUND_WET_BINDINGS] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(wet_ring), sizeof(ground_wet_block)}, /* 0 */
-    [BIND_WETNESS] = {SAMPLED, FRAGMENT},                                                   /* 1 */
-    [BIND_SPOTS] = {SAMPLED, FRAGMENT},                                                     /* 2 */
-    [BIND_RIPPLES] = {SAMPLED, FRAGMENT},                                                   /* 3 */
-    [BIND_FAR_WETNESS] = {SAMPLED, FRAGMENT},                                               /* 4 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                     /* 5 */
-    [BIND_COLOR] = {SAMPLED, FRAGMENT},                                                     /* 6 */
+    RING(VIRGA_ALL_STAGES, wet_ring, ground_wet_block), /* 0 */
+    [BIND_WETNESS] = {SAMPLED, FRAGMENT},               /* 1 */
+    [BIND_SPOTS] = {SAMPLED, FRAGMENT},                 /* 2 */
+    [BIND_RIPPLES] = {SAMPLED, FRAGMENT},               /* 3 */
+    [BIND_FAR_WETNESS] = {SAMPLED, FRAGMENT},           /* 4 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                 /* 5 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT},                 /* 6 */
 };
 
 const virga_effect_draw ground_draws[1] = {

@@ -111,22 +111,22 @@ static const virga_effect_image images[] = {
 
 /* The same bindings as in shaders/lens, where each file declares those it uses. */
 static const virga_binding_kind bindings[LENS_BINDINGS] = {
-    {DYNAMIC, SEEN, VIRGA_SOURCE_RING, AT(view_ring), sizeof(virga_lens_gpu)}, /* 0 */
-    {STORAGE, SEEN, VIRGA_SOURCE_BUFFER, AT(state)},                           /* 1 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                      /* 2 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                        /* 3 */
-    [LENS_BIND_DEPTH] = {SAMPLED, SEEN},                                       /* 4 */
-    [LENS_BIND_COLOR] = {SAMPLED, SEEN},                                       /* 5 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                         /* 6 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(spreads)},                         /* 7 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                       /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                        /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                      /* 10 */
-    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                             /* 11 */
-    [LENS_BIND_FIELDS] = {SAMPLED, SEEN},                                      /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                         /* 13 */
-    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture)},                      /* 14 */
-    {SAMPLED, SEEN},                                                           /* 15 colors of layers */
+    RING(SEEN, view_ring, virga_lens_gpu),         /* 0 */
+    BUFFER_IN(SEEN, state),                        /* 1 */
+    SAMPLED_IMAGE(COMPUTE, aperture),              /* 2 */
+    STORAGE_IMAGE(aperture),                       /* 3 */
+    [LENS_BIND_DEPTH] = {SAMPLED, SEEN},           /* 4 */
+    [LENS_BIND_COLOR] = {SAMPLED, SEEN},           /* 5 */
+    STORAGE_IMAGE(samples),                        /* 6 */
+    STORAGE_IMAGE(spreads),                        /* 7 */
+    SAMPLED_IMAGE(COMPUTE, samples),               /* 8 */
+    BUFFER(tiles),                                 /* 9 */
+    BUFFER(reaches),                               /* 10 */
+    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE}, /* 11 */
+    [LENS_BIND_FIELDS] = {SAMPLED, SEEN},          /* 12 */
+    STORAGE_IMAGE(picture),                        /* 13 */
+    SAMPLED_IMAGE(FRAGMENT, picture),              /* 14 */
+    {SAMPLED, SEEN},                               /* 15 colors of layers */
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
@@ -136,7 +136,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(spreads)}, /* 25 */
+    SAMPLED_IMAGE(COMPUTE, spreads), /* 25 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -217,28 +217,13 @@ VIRGA_EFFECT_FUNCTIONS(lens)
 VIRGA_EFFECT_DRAW_FUNCTIONS(lens)
 
 const virga_effect_type lens_type = {
-    .name = "a lens",
-    .log_name = "lens_settings",
-    .size = sizeof(virga_lens),
-    .def = {"lens_def", sizeof(virga_lens_def), AT(def), def_rows, VIRGA_ROWS(def_rows)},
-    .settings = {"lens_settings", sizeof(virga_lens_settings), AT(settings), setting_rows, VIRGA_ROWS(setting_rows)},
-    VIRGA_TABLE(buffer),
-    VIRGA_TABLE(ring),
+    VIRGA_EFFECT_TABLES(lens, "a lens", "lens_settings"),
     VIRGA_TABLE(image),
-    VIRGA_TABLE(layout),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
+    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings),
     .draws = lens_draws,
     .draw_count = LENS_DRAWS,
-    .readback_name = "lens.readback",
     .readback_bytes = VIRGA_MAX_VIEWS * sizeof(virga_lens_state_gpu),
-    .fit_device = fit_device,
-    .count = count,
-    .init = init,
-    .describe = describe,
     .read_statistics = lens_read_statistics,
-    .check_settings = check_settings,
-    .apply_settings = apply_settings,
     .draw = lens_type_draw,
     .max_views = offsetof(virga_lens_def, max_views),
 };

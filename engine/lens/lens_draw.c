@@ -267,8 +267,7 @@ static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd
 {
     virga_context *context = lens->base.context;
     const virga_effect_target *found;
-    virga_result result =
-        virga_effect_check_draw(&lens->base, call, cmd, target, prepared, virga_effect_ready(&lens->base), &found);
+    virga_result result = virga_effect_check_draw(&lens->base, call, cmd, target, prepared, true, &found);
     if (result)
         return result;
     const virga_pipeline *pipeline = found->draws[row];

@@ -247,12 +247,6 @@ static uint32_t pass_constant(const void *object)
     return VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
 }
 
-static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
-                            virga_prepared *prepared)
-{
-    return virga_rain_prepare_view(object, cmd, view, time_s, prepared);
-}
-
 /* ---- settings */
 
 static virga_result check_settings(const void *object, void *given, bool *changed)
@@ -353,22 +347,16 @@ static const virga_effect_state_row state_rows[] = {
 
 VIRGA_EFFECT_FUNCTIONS(rain)
 VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
+VIRGA_EFFECT_PREPARE_FUNCTIONS(rain)
 VIRGA_EFFECT_STATE_FUNCTIONS(rain)
 
 const virga_effect_type rain_type = {
     VIRGA_EFFECT_TYPE(rain, "rain", "rain"),
     VIRGA_EFFECT_DRAWS(rain),
-    .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
-    .destroy = destroy,
-    .pass_constant = pass_constant,
-    .check_settings = check_settings,
-    .apply_settings = apply_settings,
+    VIRGA_CALLBACKS(extra_bytes, init, create, destroy, pass_constant, check_settings, apply_settings, prepare),
     .lost = rain_lost,
     VIRGA_TABLE(state_row),
     .state_loaded = rain_state_loaded,
-    .prepare = prepare,
 };
 
 /* ---- buffers and statistics */

@@ -20,31 +20,31 @@ enum {
 };
 
 const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(rain_tick_tables)}, /* 0 tick, maps, classes */
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(rain_view_block)},  /* 1 view */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(slot_buffer)},                                 /* 2 slots as texels */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drop_buffer)},                                /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(impact_buffer)},                              /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(pick_buffer)},                                /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(prepared_buffer)},                            /* 6 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(streak_buffer)},                     /* 7 */
-    [BIND_SWAYS] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(sway_buffer)},                 /* 8 */
-    [BIND_MAP_DEPTH] = {SAMPLED, VIRGA_ALL_STAGES},                                          /* 9 occlusion maps */
-    [BIND_MAP_SURFACE] = {SAMPLED, VIRGA_ALL_STAGES},                                        /* 10 */
-    [BIND_WIND] = {SAMPLED, COMPUTE},                                                        /* 11 */
-    [BIND_SCENE_DEPTH] = {SAMPLED, FRAGMENT},                                                /* 12 */
-    [BIND_POINTS] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(point_buffer)},               /* 13 */
+    RING(VIRGA_ALL_STAGES, tick_ring, rain_tick_tables), /* 0 tick, maps, classes */
+    RING(VIRGA_ALL_STAGES, view_ring, rain_view_block),  /* 1 view */
+    TEXEL_BUFFER(slot_buffer),                           /* 2 slots as texels */
+    BUFFER(drop_buffer),                                 /* 3 */
+    BUFFER(impact_buffer),                               /* 4 */
+    BUFFER(pick_buffer),                                 /* 5 */
+    BUFFER(prepared_buffer),                             /* 6 */
+    BUFFER_IN(COMPUTE | VERTEX, streak_buffer),          /* 7 */
+    [BIND_SWAYS] = BUFFER(sway_buffer),                  /* 8 */
+    [BIND_MAP_DEPTH] = {SAMPLED, VIRGA_ALL_STAGES},      /* 9 occlusion maps */
+    [BIND_MAP_SURFACE] = {SAMPLED, VIRGA_ALL_STAGES},    /* 10 */
+    [BIND_WIND] = {SAMPLED, COMPUTE},                    /* 11 */
+    [BIND_SCENE_DEPTH] = {SAMPLED, FRAGMENT},            /* 12 */
+    [BIND_POINTS] = BUFFER(point_buffer),                /* 13 */
     {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->travels},         /* 14 */
     {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->weights}, /* 15 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                            /* 16 */
-    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                            /* 17 */
+    BUFFER(list_buffer),                                                                                 /* 16 */
+    TEXEL_BUFFER_IN(VERTEX, streak_buffer),                                                              /* 17 */
     [BIND_HITS] = {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer),
-                   RAIN_HITS_BYTES},                                                    /* 18 hits of a pane */
-    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_offset_buffer)}, /* 19 offsets of hits */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                            /* 20 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                          /* 21 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                           /* 22 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(total_buffer)},                          /* 23 */
+                   RAIN_HITS_BYTES},               /* 18 hits of a pane */
+    [BIND_HIT_PLACES] = BUFFER(hit_offset_buffer), /* 19 offsets of hits */
+    TEXEL_BUFFER(drop_buffer),                     /* 20 */
+    BUFFER(order_buffer),                          /* 21 */
+    BUFFER(slot_buffer),                           /* 22 */
+    BUFFER(total_buffer),                          /* 23 */
 };
 
 static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayout layout)

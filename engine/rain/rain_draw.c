@@ -164,18 +164,9 @@ static uint32_t glowing_lamps(const virga_rain *rain)
     return settings->glow > 0 && settings->light_gain > 0 ? settings->lighting.light_count : 0;
 }
 
-virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s)
+virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                          virga_prepared *prepared)
 {
-    return virga_rain_prepare_view(rain, cmd, view, time_s, NULL);
-}
-
-virga_result virga_rain_prepare_view(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s,
-                                     virga_prepared *prepared)
-{
-    if (prepared)
-        *prepared = 0;
-    if (!rain)
-        return VIRGA_ERROR_INVALID;
     virga_result result =
         virga_effect_check_prepare(&rain->base, "virga_rain_prepare", cmd, view, time_s, rain->stepped);
     if (result)
@@ -252,8 +243,7 @@ static virga_result draw_parts(virga_rain *rain, const char *call, VkCommandBuff
                                virga_prepared prepared, uint32_t parts)
 {
     const virga_effect_target *found;
-    virga_result result =
-        virga_effect_check_draw(&rain->base, call, cmd, target, prepared, virga_effect_ready(&rain->base), &found);
+    virga_result result = virga_effect_check_draw(&rain->base, call, cmd, target, prepared, true, &found);
     if (result)
         return result;
     const virga_effect_view *view = virga_effect_selected(&rain->base);

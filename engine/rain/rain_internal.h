@@ -251,6 +251,8 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
 
 /* ---- rain_draw.c */
 extern const virga_effect_draw rain_draws[RAIN_DRAW_ROWS];
+virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                          virga_prepared *prepared);
 virga_result rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call);
 

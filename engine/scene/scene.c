@@ -155,11 +155,9 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
 {
     if (scene)
         *scene = NULL;
-    if (!context || !def || !scene)
-        return virga_wrong_argument(context ? &context->log : NULL, "virga_scene_create: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_result result = check_def(&context->log, def);
+    virga_result result = virga_context_check_create(context, def && scene, "virga_scene_create");
+    if (!result)
+        result = check_def(&context->log, def);
     if (result)
         return result;
     virga_scene *made = virga_alloc(&context->heap, sizeof *made);

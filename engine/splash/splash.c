@@ -216,12 +216,6 @@ static void describe(const void *object, char *line, size_t size)
              splash->def.max_droplets);
 }
 
-static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s,
-                            virga_prepared *prepared)
-{
-    return virga_splash_prepare_view(object, cmd, view, time_s, prepared);
-}
-
 static virga_result check_settings(const void *object, void *settings, bool *changed)
 {
     const virga_splash *splash = object;
@@ -242,18 +236,16 @@ static const virga_effect_state_row state_rows[] = {
 VIRGA_EFFECT_FUNCTIONS(splash)
 VIRGA_EFFECT_STATE_FUNCTIONS(splash)
 VIRGA_EFFECT_DRAW_FUNCTIONS(splash)
+VIRGA_EFFECT_PREPARE_FUNCTIONS(splash)
 VIRGA_EFFECT_STATISTICS_FUNCTION(splash)
 
 const virga_effect_type splash_type = {
     VIRGA_EFFECT_TYPE(splash, "splash", "splash_settings"),
     VIRGA_EFFECT_DRAWS(splash),
-    .fit_device = fit_device,
-    .fill_settings = fill_settings,
-    .check_settings = check_settings,
+    VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, prepare),
     .lost = splash_lost,
     VIRGA_TABLE(state_row),
     .state_loaded = splash_state_loaded,
-    .prepare = prepare,
 };
 
 /* ---- queries */

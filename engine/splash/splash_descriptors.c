@@ -21,39 +21,39 @@ enum {
 
 /* The same bindings as in shaders/splash, where each file declares those it uses. */
 const virga_binding_kind splash_bindings[SPLASH_BINDINGS] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_splash_tick_gpu)},   /* 0 */
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(splash_view_block)},       /* 1 */
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(rules_ring), sizeof(virga_splash_rules_gpu)}, /* 2 */
-    [BIND_SPAWNS] = {STORAGE, COMPUTE},                                                             /* 3 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(state)},                                    /* 4 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(splashes)},                                 /* 5 */
-    [BIND_DROPLETS] = {STORAGE, COMPUTE | VERTEX},                                                  /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(marks)},                                             /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawn_offsets)},                                     /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returned_droplets)},                                 /* 9 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picks)},                                    /* 10 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 11 */
-    [BIND_KEPT] = {STORAGE, COMPUTE},                              /* 12 droplets that stay after the tick */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(sprites)}, /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(prepared_buffer)},  /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(index_buffer)},     /* 15 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                            /* 16 */
-    [BIND_COLOR] = {SAMPLED, FRAGMENT},                            /* 17 */
-    [BIND_DROPLET_TEXELS] = {TEXELS, VIRGA_ALL_STAGES},            /* 18 */
-    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(splashes)}, /* 19 */
-    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(sprites)},  /* 20 */
-    [BIND_HANDED] = {STORAGE, COMPUTE},                            /* 21 */
-    [BIND_FLOORS] = {STORAGE, COMPUTE},                            /* 22 */
+    RING(VIRGA_ALL_STAGES, tick_ring, virga_splash_tick_gpu),   /* 0 */
+    RING(VIRGA_ALL_STAGES, view_ring, splash_view_block),       /* 1 */
+    RING(VIRGA_ALL_STAGES, rules_ring, virga_splash_rules_gpu), /* 2 */
+    [BIND_SPAWNS] = {STORAGE, COMPUTE},                         /* 3 */
+    BUFFER_IN(VIRGA_ALL_STAGES, state),                         /* 4 */
+    BUFFER_IN(COMPUTE | VERTEX, splashes),                      /* 5 */
+    [BIND_DROPLETS] = {STORAGE, COMPUTE | VERTEX},              /* 6 */
+    BUFFER(marks),                                              /* 7 */
+    BUFFER(spawn_offsets),                                      /* 8 */
+    BUFFER(returned_droplets),                                  /* 9 */
+    BUFFER_IN(VIRGA_ALL_STAGES, picks),                         /* 10 */
+    BUFFER_IN(VIRGA_ALL_STAGES, lists),                         /* 11 */
+    [BIND_KEPT] = {STORAGE, COMPUTE},                           /* 12 droplets that stay after the tick */
+    BUFFER_IN(COMPUTE | VERTEX, sprites),                       /* 13 */
+    BUFFER(prepared_buffer),                                    /* 14 */
+    BUFFER(index_buffer),                                       /* 15 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                         /* 16 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT},                         /* 17 */
+    [BIND_DROPLET_TEXELS] = {TEXELS, VIRGA_ALL_STAGES},         /* 18 */
+    TEXEL_BUFFER_IN(VIRGA_ALL_STAGES, splashes),                /* 19 */
+    TEXEL_BUFFER_IN(VIRGA_ALL_STAGES, sprites),                 /* 20 */
+    [BIND_HANDED] = {STORAGE, COMPUTE},                         /* 21 */
+    [BIND_FLOORS] = {STORAGE, COMPUTE},                         /* 22 */
 };
 
 /* Of the pass that ends spray, see shaders/splash/step/recall.comp. */
 enum { RECALL_DROPLETS = 1, RECALL_LEAVERS, RECALL_TABLE };
 
 const virga_binding_kind splash_recall_bindings[SPLASH_RECALL_BINDINGS] = {
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)}, /* 0 */
-    [RECALL_DROPLETS] = {STORAGE, COMPUTE},             /* 1 */
-    [RECALL_LEAVERS] = {STORAGE, COMPUTE},              /* 2 */
-    [RECALL_TABLE] = {STORAGE, COMPUTE},                /* 3 */
+    BUFFER(state),                          /* 0 */
+    [RECALL_DROPLETS] = {STORAGE, COMPUTE}, /* 1 */
+    [RECALL_LEAVERS] = {STORAGE, COMPUTE},  /* 2 */
+    [RECALL_TABLE] = {STORAGE, COMPUTE},    /* 3 */
 };
 
 VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info)
@@ -70,8 +70,8 @@ VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash
 enum { HITS_LIST = 1 };
 
 const virga_binding_kind splash_hits_bindings[SPLASH_HITS_BINDINGS] = {
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returned_droplets)}, /* 0 */
-    [HITS_LIST] = {STORAGE, COMPUTE},                               /* 1 */
+    BUFFER(returned_droplets),        /* 0 */
+    [HITS_LIST] = {STORAGE, COMPUTE}, /* 1 */
 };
 
 VkDescriptorSet splash_write_hits_set(virga_splash *splash, uint32_t index, VkBuffer hits, VkDeviceSize offset,

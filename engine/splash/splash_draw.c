@@ -93,18 +93,9 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd, VkDescript
     virga_pass_end(context, cmd, scope);
 }
 
-virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s)
+virga_result splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared)
 {
-    return virga_splash_prepare_view(splash, cmd, view, time_s, NULL);
-}
-
-virga_result virga_splash_prepare_view(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s,
-                                       virga_prepared *prepared)
-{
-    if (prepared)
-        *prepared = 0;
-    if (!splash)
-        return VIRGA_ERROR_INVALID;
     virga_context *context = splash->base.context;
     virga_result result =
         virga_effect_check_prepare(&splash->base, "virga_splash_prepare", cmd, view, time_s, splash->ticks);
@@ -168,9 +159,7 @@ virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_
 {
     virga_context *context = splash->base.context;
     const virga_effect_target *found;
-    virga_result result =
-        virga_effect_check_draw(&splash->base, call, cmd, target, prepared,
-                                splash->ticks ? virga_effect_ready(&splash->base) : VIRGA_NOT_READY, &found);
+    virga_result result = virga_effect_check_draw(&splash->base, call, cmd, target, prepared, splash->ticks, &found);
     if (result)
         return result;
     const splash_prepared *seen = &splash->prepared[splash->base.slot];

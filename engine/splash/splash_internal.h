@@ -169,6 +169,8 @@ void splash_read_statistics(void *splash, uint64_t frame, uint32_t ring_slot, ui
 
 /* ---- splash_draw.c */
 extern const virga_effect_draw splash_draws[SPLASH_DRAW_ROWS];
+virga_result splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s,
+                            virga_prepared *prepared);
 virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                          const char *call);
 

@@ -240,77 +240,77 @@ static const virga_binding_kind grid_bindings[] = {
 /* The first bindings of all passes of a step but the grid's. */
 /* clang-format off */
 #define STEP_BINDINGS \
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */ \
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */ \
+    RING(COMPUTE, step_ring, virga_water_step_gpu), /* 0 */ \
+    BUFFER(state),                                 /* 1 */ \
     [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */ \
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */ \
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)}                       /* 4 */
+    BUFFER(grid.state),                            /* 3 */ \
+    BUFFER(grid.cell_starts)                       /* 4 */
 /* clang-format on */
 
 static const virga_binding_kind kernel_bindings[] = {
-    STEP_BINDINGS,                                                    /* 0 to 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},         /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)}, /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},          /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},           /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shifts)},              /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},               /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},              /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},             /* 12 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},          /* 13 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shifts)},               /* 14 */
+    STEP_BINDINGS,               /* 0 to 4 */
+    BUFFER(grid.sorted),         /* 5 */
+    BUFFER(grid.sorted_indices), /* 6 */
+    BUFFER(cell_marks),          /* 7 */
+    BUFFER(densities),           /* 8 */
+    BUFFER(shifts),              /* 9 */
+    BUFFER(picks),               /* 10 */
+    BUFFER(shapes),              /* 11 */
+    BUFFER(centers),             /* 12 */
+    TEXEL_BUFFER(grid.sorted),   /* 13 */
+    TEXEL_BUFFER(shifts),        /* 14 */
 };
 
 static const virga_binding_kind bindings[] = {
-    STEP_BINDINGS,                                                       /* 0 to 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                 /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},             /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                  /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_insides)},          /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(blocks)},                 /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_of)},               /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(fields)},                 /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_starts)},           /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)}, /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(centers)},                 /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},  /* 17 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shapes)},                  /* 18 */
+    STEP_BINDINGS,                        /* 0 to 4 */
+    BUFFER(centers),                      /* 5 */
+    BUFFER(shapes),                       /* 6 */
+    BUFFER(cell_marks),                   /* 7 */
+    BUFFER(picks),                        /* 8 */
+    BUFFER(block_insides),                /* 9 */
+    BUFFER(blocks),                       /* 10 */
+    BUFFER(block_of),                     /* 11 */
+    BUFFER(fields),                       /* 12 */
+    BUFFER(block_starts),                 /* 13 */
+    BUFFER(grid.sorted_velocities),       /* 14 */
+    BUFFER(surfels),                      /* 15 */
+    TEXEL_BUFFER(centers),                /* 16 */
+    TEXEL_BUFFER(grid.sorted_velocities), /* 17 */
+    TEXEL_BUFFER(shapes),                 /* 18 */
 };
 
 static const virga_binding_kind spray_bindings[] = {
-    STEP_BINDINGS,                                                    /* 0 to 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},         /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)}, /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.picks)},         /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},           /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.list)},          /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.splashes)},      /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.pieces)},        /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.table)},         /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.starts)},        /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},      /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},             /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(spray.droplets)},       /* 16 */
-    [WATER_BIND_HANDED] = {STORAGE, COMPUTE},                         /* 17 */
+    STEP_BINDINGS,                            /* 0 to 4 */
+    BUFFER(grid.sorted),                      /* 5 */
+    BUFFER(grid.sorted_indices),              /* 6 */
+    BUFFER(spray.picks),                      /* 7 */
+    BUFFER(densities),                        /* 8 */
+    BUFFER(spray.list),                       /* 9 */
+    BUFFER(spray.splashes),                   /* 10 */
+    BUFFER(spray.pieces),                     /* 11 */
+    BUFFER(spray.table),                      /* 12 */
+    BUFFER(spray.starts),                     /* 13 */
+    BUFFER(spray.droplets),                   /* 14 */
+    BUFFER(surfels),                          /* 15 */
+    TEXEL_BUFFER(spray.droplets),             /* 16 */
+    [WATER_BIND_HANDED] = {STORAGE, COMPUTE}, /* 17 */
 };
 
 static const virga_binding_kind foam_bindings[] = {
-    STEP_BINDINGS,                                                       /* 0 to 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},            /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},    /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.picks)},             /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},              /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.slots)},             /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.particles)},         /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.normals)},           /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.emissions)},         /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.sources)},           /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)}, /* 14 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},             /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},  /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(foam.normals)},            /* 17 */
+    STEP_BINDINGS,                        /* 0 to 4 */
+    BUFFER(grid.sorted),                  /* 5 */
+    BUFFER(grid.sorted_indices),          /* 6 */
+    BUFFER(foam.picks),                   /* 7 */
+    BUFFER(densities),                    /* 8 */
+    BUFFER(foam.slots),                   /* 9 */
+    BUFFER(foam.particles),               /* 10 */
+    BUFFER(foam.normals),                 /* 11 */
+    BUFFER(foam.emissions),               /* 12 */
+    BUFFER(foam.sources),                 /* 13 */
+    BUFFER(grid.sorted_velocities),       /* 14 */
+    TEXEL_BUFFER(grid.sorted),            /* 15 */
+    TEXEL_BUFFER(grid.sorted_velocities), /* 16 */
+    TEXEL_BUFFER(foam.normals),           /* 17 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -426,15 +426,11 @@ static virga_result draw_if_sized(void *object, VkCommandBuffer cmd, const virga
 const virga_effect_type water_type = {
     VIRGA_EFFECT_TYPE(water, "water", "water_settings"),
     VIRGA_TABLE(image),
-    .fit_device = fit_device,
-    .create = create,
-    .destroy = destroy,
-    .extra_bytes = extra_bytes,
+    VIRGA_CALLBACKS(fit_device, create, destroy, extra_bytes, prepare),
     .lighting = offsetof(virga_water_settings, lighting),
     .draws = water_draws,
     .draw_count = WATER_DRAWS,
     .draw_layout = WATER_LAYOUT_DRAW,
-    .prepare = prepare,
     .draw = draw_if_sized,
     .max_views = offsetof(virga_water_def, max_views),
 };

@@ -23,30 +23,30 @@ _Static_assert(VIRGA_WATER_DATA_MOTION == VIRGA_WATER_DATA_MOTION_GPU, "the same
 enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA };
 
 const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring), sizeof(water_view_block)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                              /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                                            /* 2 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(surfels)},                                             /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.picks)},                                      /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.list)},                                       /* 5 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.splats)},                            /* 6 */
-    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(picture.splats)},                                       /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.prepared)},                                   /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                                         /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.pyramid)},                                    /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                                        /* 11 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                                         /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},                                     /* 13 */
-    [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                                                     /* 14 */
-    [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                             /* 15 */
-    [BIND_THICKNESS] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},               /* 16 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                              /* 17 */
-    [BIND_COLOR] = {SAMPLED, FRAGMENT},                                                              /* 18 */
-    [BIND_PANORAMA] = {SAMPLED, FRAGMENT},                                                           /* 19 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.slots)},                                         /* 20 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(foam.particles)},                                     /* 21 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.foam_splats)},                       /* 22 */
-    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(picture.foam_splats)},                                  /* 23 */
+    RING(VIRGA_ALL_STAGES, picture.view_ring, water_view_block),   /* 0 */
+    BUFFER(state),                                                 /* 1 */
+    BUFFER(surfels),                                               /* 2 */
+    TEXEL_BUFFER(surfels),                                         /* 3 */
+    BUFFER(picture.picks),                                         /* 4 */
+    BUFFER(picture.list),                                          /* 5 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.splats),                   /* 6 */
+    TEXEL_BUFFER_IN(VERTEX, picture.splats),                       /* 7 */
+    BUFFER(picture.prepared),                                      /* 8 */
+    BUFFER(grid.state),                                            /* 9 */
+    BUFFER(picture.pyramid),                                       /* 10 */
+    BUFFER(grid.sorted),                                           /* 11 */
+    TEXEL_BUFFER(grid.sorted),                                     /* 12 */
+    STORAGE_IMAGE(picture.thickness),                              /* 13 */
+    [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                   /* 14 */
+    [BIND_MOTION] = {SAMPLED, FRAGMENT},                           /* 15 */
+    [BIND_THICKNESS] = SAMPLED_IMAGE(FRAGMENT, picture.thickness), /* 16 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                            /* 17 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT},                            /* 18 */
+    [BIND_PANORAMA] = {SAMPLED, FRAGMENT},                         /* 19 */
+    BUFFER(foam.slots),                                            /* 20 */
+    BUFFER(foam.particles),                                        /* 21 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.foam_splats),              /* 22 */
+    TEXEL_BUFFER_IN(VERTEX, picture.foam_splats),                  /* 23 */
 };
 
 /* ---- prepare */
@@ -283,8 +283,7 @@ static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const vi
     virga_context *context = water->base.context;
     const virga_effect_target *found;
     const bool stepped = water->def.max_width && water->base.contents;
-    virga_result result = virga_effect_check_draw(&water->base, call, cmd, target, prepared,
-                                                  stepped ? virga_effect_ready(&water->base) : VIRGA_NOT_READY, &found);
+    virga_result result = virga_effect_check_draw(&water->base, call, cmd, target, prepared, stepped, &found);
     if (result)
         return result;
     const virga_pipeline *used = found->draws[draw_of(water->picture.look[water->base.slot])];
