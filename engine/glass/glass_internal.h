@@ -99,12 +99,15 @@ virga_result glass_check_wiper(const virga_log *log, virga_glass_wiper *wiper, b
 void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double share_from, double share_to,
                        virga_glass_tick_gpu *tick);
 
-/* ---- glass.c */
+/* ---- glass_cells.c */
 
 /* Number of cells that cover a length. The last cell may extend beyond it. */
 uint32_t glass_cells_along(float length_m, float cell_m);
 /* Number of blocks of VIRGA_GLASS_FILM_BLOCK x VIRGA_GLASS_FILM_BLOCK cells. */
 uint32_t glass_film_blocks(const virga_glass_def *def);
+
+/* ---- glass.c */
+
 VkDescriptorSet glass_write_set(virga_glass *glass);
 
 /* The description of the pane that its passes read. */

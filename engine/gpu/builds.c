@@ -11,6 +11,8 @@
 
 #include "gpu/context.h"
 #include "gpu/errors.h"
+#include "gpu/names.h"
+#include "gpu/pipeline_build.h"
 #include "gpu/pipelines.h"
 #include "gpu/resources.h"
 

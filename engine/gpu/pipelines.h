@@ -89,11 +89,4 @@ typedef struct virga_graphics_def {
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **pipeline);
 
-/* Builds one pipeline. Uses the device and changes nothing in the context, so any thread may call it. `call` returns
- * the name of the Vulkan call that failed. */
-VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
-                             const char **call);
-VkResult virga_graphics_build(const virga_context *context, const virga_graphics_def *def, VkPipeline *pipeline,
-                              const char **call);
-
 #endif

@@ -50,7 +50,4 @@ void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
 /* The error of the flushes since the last call, or VIRGA_OK. After a device loss: VIRGA_ERROR_DEVICE_LOST. */
 virga_result virga_check_uploads(virga_context *context);
 
-/* The name that debuggers and validation messages show. */
-void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, const char *name);
-
 #endif

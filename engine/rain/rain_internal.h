@@ -4,6 +4,7 @@
  *   classes.c           size classes: their slots, weights and motion
  *   wind.c              the uniform wind with its gusts
  *   rain_descriptors.c  the bindings of all passes
+ *   rain_frame.c        what the first call of a frame records
  *   rain_step.c         ticks and impacts
  *   rain_occlusion.c    maps of where no rain falls
  *   rain_hits.c         drops that hit a pane

@@ -27,11 +27,6 @@ virga_scene_def virga_default_scene_def(void)
                              .max_views = 1};
 }
 
-virga_result scene_merge_results(virga_result a, virga_result b)
-{
-    return a < 0 ? a : b ? b : a;
-}
-
 static virga_result check_def(const virga_log *log, const virga_scene_def *def)
 {
     const virga_result result = virga_settings_check(log, "scene_def", def->size, sizeof *def, def->cookie);
@@ -187,40 +182,7 @@ void virga_scene_destroy(virga_scene **scene)
     virga_context_leave(context);
 }
 
-/* ---- access to the effects, for their own functions */
-
-void *scene_find(const virga_scene *scene, const virga_effect_type *type, uint32_t index)
-{
-    for (uint32_t i = 0; scene && i < scene->effect_count; i++)
-        if (scene->effects[i].kind->type == type && scene->effects[i].index == index)
-            return scene->effects[i].effect;
-    return NULL;
-}
-
-virga_rain *virga_scene_rain(virga_scene *scene)
-{
-    return scene_find(scene, &rain_type, 0);
-}
-
-virga_ground *virga_scene_ground(virga_scene *scene)
-{
-    return scene_find(scene, &ground_type, 0);
-}
-
-virga_splash *virga_scene_splash(virga_scene *scene)
-{
-    return scene_find(scene, &splash_type, 0);
-}
-
-virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
-{
-    return scene_find(scene, &glass_type, index);
-}
-
-virga_water *virga_scene_water(virga_scene *scene)
-{
-    return scene_find(scene, &water_type, 0);
-}
+/* ---- settings of all effects */
 
 virga_result virga_scene_lighting_set(virga_scene *scene, const virga_lighting *lighting)
 {

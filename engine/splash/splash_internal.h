@@ -3,6 +3,7 @@
  *   splash.c              create, destroy, settings, queries
  *   splash_table.c        the splash rule of each material and state
  *   splash_descriptors.c  the bindings of all passes
+ *   splash_tick.c         the block that a tick's passes read
  *   splash_step.c         ticks
  *   splash_spray.c        droplets that water hands over
  *   splash_draw.c         prepare, attach, draw

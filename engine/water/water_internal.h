@@ -17,6 +17,8 @@
 #include "particles/particle_grid.h"
 #include "water/water.h"
 
+#include <math.h>
+
 #include <virga/shared/view_gpu.h>
 #include <virga/shared/water_draw_gpu.h>
 #include <virga/shared/water_gpu.h>
@@ -123,8 +125,12 @@ void water_spray_fill(virga_water *water, const virga_water_step_info *info, vir
 void water_spray_clear(const virga_water *water, VkCommandBuffer cmd);
 void water_spray_record(virga_water *water, VkCommandBuffer cmd);
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd);
-/* Volume of a particle (m^3), and the radius of surfels (m). */
-double water_particle_m3(const virga_water_settings *settings);
+/* Volume of a particle (m^3). */
+static inline double water_particle_m3(const virga_water_settings *settings)
+{
+    return settings->volume_m3 > 0 ? (double)settings->volume_m3 : pow((double)settings->spacing_m, 3);
+}
+/* Radius of surfels (m). */
 double water_surfel_m(const virga_water_settings *settings);
 
 /* ---- water_foam.c */

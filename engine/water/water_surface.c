@@ -95,11 +95,6 @@ static double crowd(double d, double h)
     return d * d * d / (2 * PI / 3 * h * h * h);
 }
 
-double water_particle_m3(const virga_water_settings *settings)
-{
-    return settings->volume_m3 > 0 ? (double)settings->volume_m3 : pow((double)settings->spacing_m, 3);
-}
-
 static double point_m(const virga_water_settings *settings)
 {
     return (double)settings->kernel_spacings * (double)settings->spacing_m / VIRGA_WATER_SIDE;
