@@ -25,6 +25,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_bodies, 0, VIRGA_FLUID_MAX_BODIES),
     DEF(U32, max_body_nodes, 4096, 16777216, 262144),
     DEF(U32, max_contacts, 256, 1048576, 16384),
+    DEF(U32, max_exchanged, 0, 1048576),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -32,6 +33,12 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, viscosity_m2_s, 0, 10, 0.001),
     SETTING(FLOAT, cfl, 0.05, 1, 0.4),
     SETTING(FLOAT, solver_error, 1e-6, 0.01, 0.0001),
+    SETTING(BOOL, gives_back, false, true, true),
+    SETTING(BOOL, open_sides, false, true),
+    SETTING(FLOAT, rest_speed_m_s, 0, 10, 0.1),
+    SETTING(FLOAT, film_speed_m_s, 0, 10, 0.5),
+    SETTING(FLOAT, rest_s, 0, 60, 0.25),
+    SETTING(FLOAT, rest_height_m, 0, 100, 0.05),
 };
 
 static void fill_settings(void *given)
@@ -48,6 +55,7 @@ static virga_result check_def(const virga_log *log, void *given)
     virga_fluid_def *def = given;
     (void)log;
     def->max_cells = particle_grid_cells(def->max_cells);
+    fluid_fit_exchanged(def);
     return VIRGA_OK;
 }
 
@@ -55,9 +63,10 @@ static virga_result check_def(const virga_log *log, void *given)
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_fluid_def *def = given;
-    return virga_fit_storage(context, "fluid_def.max_particles", 16 * VIRGA_FLUID_LIST_TEXELS, &def->max_particles)
-               ? VIRGA_DEGRADED
-               : VIRGA_OK;
+    const bool reduced =
+        virga_fit_storage(context, "fluid_def.max_particles", 16 * VIRGA_FLUID_LIST_TEXELS, &def->max_particles);
+    fluid_fit_exchanged(def);
+    return reduced ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 /* ---- resources */
@@ -70,7 +79,9 @@ enum {
     COUNT_BLOCKS,
     COUNT_CONTACTS,
     COUNT_TOUCHES,
-    COUNT_NODES
+    COUNT_NODES,
+    COUNT_PRESSURES,
+    COUNT_ENTRIES
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -84,6 +95,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     /* A buffer that no pass reads has a texel. */
     counts[COUNT_CONTACTS] = def->max_bodies ? VIRGA_FLUID_MAX_BODIES * (VkDeviceSize)def->max_contacts : 1;
     counts[COUNT_TOUCHES] = def->max_bodies ? VIRGA_FLUID_TOUCHES * (VkDeviceSize)def->max_particles : 1;
+    counts[COUNT_PRESSURES] = (def->max_exchanged ? 2 : 1) * (VkDeviceSize)def->max_particles;
+    counts[COUNT_ENTRIES] = 2 * (VkDeviceSize)(def->max_exchanged ? def->max_exchanged : 1);
     counts[COUNT_NODES] = def->max_bodies ? def->max_body_nodes : 1;
 }
 
@@ -93,7 +106,7 @@ static const virga_effect_buffer buffers[] = {
      .first = VIRGA_FIRST_FILL},
     {"fluid.particles", AT(slots), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_particle_gpu),
      .count = COUNT_PARTICLES, .first = VIRGA_FIRST_FILL},
-    {"fluid.pressures", AT(slot_pressures), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PARTICLES,
+    {"fluid.pressures", AT(slot_pressures), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PRESSURES,
      .first = VIRGA_FIRST_FILL},
     {"fluid.positions", AT(positions), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.moved", AT(moved), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
@@ -104,6 +117,8 @@ static const virga_effect_buffer buffers[] = {
      .first = VIRGA_FIRST_FILL},
     {"fluid.touches", AT(touches), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_TOUCHES},
     {"fluid.maps", AT(maps), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_NODES},
+    {"fluid.exchange", AT(exchange), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_exchange_gpu),
+     .entry = sizeof(virga_exchanged_gpu), .count = COUNT_ENTRIES, .first = VIRGA_FIRST_FILL},
     {"fluid.lists", AT(lists), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_LIST_TEXELS},
 };
 
@@ -154,10 +169,18 @@ static const virga_binding_kind bindings[] = {
     RING(COMPUTE, shape_ring, virga_fluid_shapes_gpu), /* 25 */
 };
 
+static const virga_binding_kind exchange_bindings[] = {
+    RING(COMPUTE, step_ring, virga_fluid_step_gpu), /* 0 */
+    BUFFER(slots),                                  /* 1 */
+    BUFFER(slot_pressures),                         /* 2 */
+    BUFFER(exchange),                               /* 3 */
+};
+
 static const virga_effect_layout layouts[] = {
     [FLUID_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_fluid, grid_bindings, 1),
     [FLUID_LAYOUT_ADD] = {AT(add_bindings), add_bindings, VIRGA_ROWS(add_bindings), 1, 0},
     [FLUID_LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
+    [FLUID_LAYOUT_EXCHANGE] = {AT(exchange_bindings), exchange_bindings, VIRGA_ROWS(exchange_bindings), 1, 0},
 };
 
 #define STEP_PASS(pass) PASS(pass, .layout = FLUID_LAYOUT_STEP)
@@ -183,6 +206,8 @@ static const virga_effect_pass passes[] = {
     STEP_PASS(body_move),
     STEP_PASS(advance),
     STEP_PASS(body_hit),
+    PASS(exchange_in, .layout = FLUID_LAYOUT_EXCHANGE),
+    PASS(exchange_out, .layout = FLUID_LAYOUT_EXCHANGE),
 };
 
 static const virga_effect_pool pools[] = {
@@ -243,7 +268,8 @@ static virga_result check_box(const virga_fluid *fluid, const virga_fluid_settin
 
 static uint32_t pass_constant(const void *object)
 {
-    return ((const virga_fluid *)object)->def.max_bodies ? VIRGA_FLUID_FORM_BODIES : 0;
+    const virga_fluid_def *def = &((const virga_fluid *)object)->def;
+    return (def->max_bodies ? VIRGA_FLUID_FORM_BODIES : 0) | (def->max_exchanged ? VIRGA_FLUID_FORM_EXCHANGE : 0);
 }
 
 /* While the map of a body is on its way to the device. */
@@ -251,6 +277,14 @@ static VkDeviceSize extra_bytes(const void *given)
 {
     const virga_fluid_def *def = given;
     return def->max_bodies ? (VkDeviceSize)def->max_body_nodes * 16 : 0;
+}
+
+/* The first slots are for water of the ground. */
+static virga_result init(void *object)
+{
+    virga_fluid *fluid = object;
+    fluid->particles = fluid->def.max_exchanged;
+    return VIRGA_OK;
 }
 
 static void destroy(void *object)
@@ -273,7 +307,7 @@ static virga_result check_settings(const void *object, void *settings, bool *cha
     if (fluid->body_count && next->spacing_m != fluid->settings.spacing_m)
         return virga_wrong_argument(log, "fluid_settings.spacing_m: expected %g, as there are bodies, got %g",
                                     (double)fluid->settings.spacing_m, (double)next->spacing_m);
-    return check_box(fluid, next);
+    return fluid_check_exchange(fluid, next) ? VIRGA_ERROR_INVALID : check_box(fluid, next);
 }
 
 VIRGA_EFFECT_FUNCTIONS(fluid)
@@ -281,7 +315,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(fluid)
 
 const virga_effect_type fluid_type = {
     VIRGA_EFFECT_TYPE(fluid, "fluid", "fluid_settings"),
-    VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, pass_constant, extra_bytes, destroy),
+    VIRGA_CALLBACKS(fit_device, init, fill_settings, check_settings, pass_constant, extra_bytes, destroy),
     .lost = fluid_lost,
 };
 
@@ -346,7 +380,9 @@ virga_result virga_fluid_clear(virga_fluid *fluid)
     if (!fluid)
         return VIRGA_ERROR_INVALID;
     fluid_remove_bodies(fluid);
-    fluid->particles = fluid->block_count = 0;
+    fluid->particles = fluid->def.max_exchanged;
+    fluid->block_count = 0;
+    fluid->empties = fluid->def.max_exchanged > 0;
     memset(fluid->sent, 0, sizeof fluid->sent);
     return VIRGA_OK;
 }

@@ -4,6 +4,7 @@
  *   fluid_body.c  bodies: what the host tells of them and asks
  *   body_mesh.c   the mass of a body, by its mesh
  *   body_map.c    what it means for particles near it, on a grid
+ *   fluid_exchange.c  water that comes from the ground and goes back
  *   fluid_step.c  a step
  */
 #ifndef VIRGA_FLUID_FLUID_INTERNAL_H
@@ -15,6 +16,7 @@
 #include "gpu/effect.h"
 #include "particles/particle_grid.h"
 
+#include <virga/shared/exchange.h>
 #include <virga/shared/fluid_gpu.h>
 
 #define FLUID_MAX_BLOCKS 16 /* between two steps */
@@ -23,6 +25,7 @@
 typedef struct fluid_readback {
     virga_fluid_state_gpu state;
     virga_fluid_body_gpu bodies[VIRGA_FLUID_MAX_BODIES];
+    virga_exchange_gpu exchange;
 } fluid_readback;
 
 /* Where the host wants a body to be, at its center of mass. */
@@ -41,7 +44,7 @@ typedef struct fluid_body {
     uint64_t newest_frame;
 } fluid_body;
 
-enum { FLUID_LAYOUT_GRID, FLUID_LAYOUT_ADD, FLUID_LAYOUT_STEP };
+enum { FLUID_LAYOUT_GRID, FLUID_LAYOUT_ADD, FLUID_LAYOUT_STEP, FLUID_LAYOUT_EXCHANGE };
 
 /* Bindings that the step binds itself. */
 enum { FLUID_BIND_ADDED = 3 };
@@ -70,12 +73,19 @@ struct virga_fluid {
 
     particle_grid grid;
     virga_buffer *state, *slots, *slot_pressures, *positions, *moved, *walls, *solved, *lists, *body_states, *touches,
-        *maps;
+        *maps, *exchange;
     virga_ring step_ring, add_ring, shape_ring;
-    virga_bindings *add_bindings, *bindings;
+    virga_bindings *add_bindings, *bindings, *exchange_bindings;
     virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;
+    virga_pipeline *exchange_in, *exchange_out;
     virga_pipeline *body_contacts, *body_push, *body_move, *body_hit;
     virga_fluid_stats stats;
+
+    uint32_t step_offset; /* of the block of the step */
+    VkDescriptorSet exchange_set;
+    float region_low_m[2], region_high_m[2]; /* of the newest step, in the box */
+    bool empties;                            /* the next step removes the water of the ground, and the lists */
+    uint64_t emptied_frame;                  /* in which that was recorded */
 };
 
 /* First cell and number of cells of the grid on each axis. */
@@ -91,6 +101,17 @@ void fluid_send_bodies(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s, virg
 void fluid_bodies_lost(virga_fluid *fluid, uint64_t frame);
 void fluid_read_bodies(virga_fluid *fluid, uint64_t frame, const virga_fluid_body_gpu *bodies);
 void fluid_remove_bodies(virga_fluid *fluid);
+
+/* ---- fluid_exchange.c */
+
+/* Fits their number to that of all particles. */
+void fluid_fit_exchanged(virga_fluid_def *def);
+virga_result fluid_check_exchange(const virga_fluid *fluid, const virga_fluid_settings *settings);
+virga_result fluid_check_region(const virga_fluid *fluid, const virga_fluid_step_info *info);
+void fluid_fill_exchange(virga_fluid *fluid, const virga_fluid_step_info *info, virga_fluid_step_gpu *out);
+/* Water of the ground comes in before the substeps, and goes after them. */
+void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd);
+void fluid_exchange_out(virga_fluid *fluid, VkCommandBuffer cmd);
 
 /* ---- fluid_step.c */
 void fluid_lost(void *fluid, uint64_t frame, uint32_t did);

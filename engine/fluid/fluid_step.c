@@ -28,6 +28,14 @@ void fluid_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                                        .iterations = read.state.iterations,
                                        .solver_error = read.state.solver_error,
                                        .max_speed_m_s = sqrtf(speed2)};
+    if (fluid->def.max_exchanged) {
+        fluid->stats.particles = read.exchange.particles;
+        fluid->stats.free = read.exchange.free_slots;
+        fluid->stats.waiting = read.exchange.waiting;
+        fluid->stats.particle_nl = read.exchange.particle_nl;
+        fluid->stats.taken_nl = (uint64_t)read.exchange.taken_nl[1] << 32 | read.exchange.taken_nl[0];
+        fluid->stats.given_nl = (uint64_t)read.exchange.given_nl[1] << 32 | read.exchange.given_nl[0];
+    }
     fluid_read_bodies(fluid, frame, read.bodies);
 }
 
@@ -40,6 +48,7 @@ void fluid_lost(void *object, uint64_t frame, uint32_t did)
     virga_fluid *fluid = object;
     (void)did;
     fluid_bodies_lost(fluid, frame);
+    fluid->empties |= fluid->emptied_frame == frame;
     for (uint32_t slot = 0; slot < VIRGA_MAX_FRAMES_IN_FLIGHT; slot++) {
         const uint32_t room = FLUID_MAX_BLOCKS - fluid->block_count;
         if (fluid->sent[slot].frame != frame)
@@ -195,6 +204,8 @@ static virga_result check_step(const virga_fluid *fluid, VkCommandBuffer cmd, co
         return result;
     if (!(info->dt_s >= 0 && info->dt_s <= 1))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 1, got %g", (double)info->dt_s);
+    if (fluid_check_region(fluid, info))
+        return VIRGA_ERROR_INVALID;
     if (particles_check(context, info->particles, info->offset, info->count))
         return VIRGA_ERROR_INVALID;
     if (info->count > fluid->def.max_particles - fluid->particles)
@@ -203,7 +214,7 @@ static virga_result check_step(const virga_fluid *fluid, VkCommandBuffer cmd, co
     return virga_effect_ready(&fluid->base);
 }
 
-static void fill_step(const virga_fluid *fluid, float dt_s, virga_fluid_step_gpu *out)
+static void fill_step(virga_fluid *fluid, const virga_fluid_step_info *info, virga_fluid_step_gpu *out)
 {
     const virga_fluid_settings *settings = &fluid->settings;
     const float d = settings->spacing_m;
@@ -214,7 +225,7 @@ static void fill_step(const virga_fluid *fluid, float dt_s, virga_fluid_step_gpu
                                   .spacing_m = d,
                                   .inv_spacing_m = 1 / d,
                                   .viscosity_m2_s = settings->viscosity_m2_s,
-                                  .dt_s = dt_s,
+                                  .dt_s = info->dt_s,
                                   .cfl = settings->cfl,
                                   .max_substeps = fluid->def.max_substeps,
                                   .solver_error = settings->solver_error,
@@ -225,6 +236,7 @@ static void fill_step(const virga_fluid *fluid, float dt_s, virga_fluid_step_gpu
     memcpy(out->high_m, settings->high_m, sizeof out->high_m);
     memcpy(out->gravity_m_s2, settings->gravity_m_s2, sizeof out->gravity_m_s2);
     fluid_grid_box(settings, out->first_cell, out->dims);
+    fluid_fill_exchange(fluid, info, out);
 }
 
 /* The part of the state that belongs to a step. */
@@ -236,13 +248,12 @@ static void begin_state(const virga_fluid *fluid, VkCommandBuffer cmd, float dt_
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
-static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_gpu *step,
-                         const virga_fluid_shapes_gpu *shapes)
+static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_shapes_gpu *shapes)
 {
     virga_context *context = fluid->base.context;
     virga_bound bound[VIRGA_MAX_BINDINGS];
     recording r = {fluid, context, cmd};
-    r.offsets[0] = virga_ring_push(context, &fluid->step_ring, step, sizeof *step);
+    r.offsets[0] = fluid->step_offset;
     r.offsets[1] = virga_ring_push(context, &fluid->shape_ring, shapes, sizeof *shapes);
     virga_effect_bound(&fluid->base, fluid->bindings, bound);
     r.set = virga_bindings_write(context, fluid->bindings, 0, bound);
@@ -265,13 +276,18 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     add_all(fluid, cmd, info);
     virga_fluid_step_gpu step;
     virga_fluid_shapes_gpu shapes;
-    fill_step(fluid, info->dt_s, &step);
+    fill_step(fluid, info, &step);
     fluid_send_bodies(fluid, cmd, info->dt_s, &step, &shapes);
+    fluid->step_offset = virga_ring_push(context, &fluid->step_ring, &step, sizeof step);
+    fluid_exchange_in(fluid, cmd);
     fluid->step_particles[context->ring_slot] = fluid->particles;
     if ((fluid->particles || fluid->body_count) && info->dt_s > 0)
-        run_substeps(fluid, cmd, &step, &shapes);
+        run_substeps(fluid, cmd, &shapes);
+    fluid_exchange_out(fluid, cmd);
     virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->body_states, 0, offsetof(fluid_readback, bodies),
                                  sizeof(virga_fluid_body_gpu) * VIRGA_FLUID_MAX_BODIES);
+    virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->exchange, 0, offsetof(fluid_readback, exchange),
+                                 sizeof(virga_exchange_gpu));
     virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->state, 0, offsetof(fluid_readback, state),
                                  sizeof(virga_fluid_state_gpu));
     return virga_check_uploads(context);

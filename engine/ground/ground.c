@@ -101,7 +101,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
     counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
     counts[COUNT_TICKS] =
-        def->max_ticks_per_step + 2; /* one more where the window moves, and one for simulated water */
+        def->max_ticks_per_step + 3; /* one more where the window moves, and two for simulated water */
 }
 
 #define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */
@@ -160,6 +160,7 @@ enum {
     BIND_FAR_SURFACE,
     BIND_FAR_MAP,
     BIND_WATER,
+    BIND_EXCHANGE,
 };
 
 /* The bindings as the files in shaders/ground declare them. */
@@ -192,6 +193,7 @@ static const virga_binding_kind bindings[] = {
     [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE}, /* 25 */
     [BIND_FAR_MAP] = {IMAGE, COMPUTE},       /* 26 */
     [BIND_WATER] = {STORAGE, COMPUTE},       /* 27 particles of simulated water */
+    [BIND_EXCHANGE] = {STORAGE, COMPUTE},    /* 28 water that becomes particles, and comes back */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -203,6 +205,9 @@ static const virga_effect_pass passes[] = {
     PASS(tile_load),
     PASS(tile_discard),
     PASS(touch),
+    PASS(receive),
+    PASS(receive_soak),
+    PASS(take),
     PASS(spawn_mark),
     PASS(spawn_scan),
     PASS(land),
@@ -402,6 +407,11 @@ static void write_set(virga_ground *ground, uint32_t source)
                                             .offset = info->water_offset,
                                             .range = (VkDeviceSize)info->water_count * sizeof(virga_particle_gpu)}
                             : (virga_bound){.buffer = ground->counts->buffer}; /* not read */
+    bound[BIND_EXCHANGE] = info->exchange.buffer
+                               ? (virga_bound){.buffer = info->exchange.buffer,
+                                               .offset = info->exchange.offset,
+                                               .range = virga_host_list_range(context, info->exchange.size, UINT32_MAX)}
+                               : (virga_bound){.buffer = ground->counts->buffer}; /* not read */
     ground->sets[source] = virga_bindings_write(context, ground->bindings, source, bound);
 }
 

@@ -206,8 +206,8 @@ struct virga_ground {
     double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *tile_load, *tile_discard, *touch, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure,
-        *measure_cached, *map, *ring;
+    virga_pipeline *tile_load, *tile_discard, *touch, *receive, *receive_soak, *take, *spawn_mark, *spawn_scan, *land,
+        *share, *soak, *flow, *measure, *measure_cached, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, one for each source of water */

@@ -8,6 +8,7 @@
 #include "gpu/timers.h"
 
 #include <virga/drops.h>
+#include <virga/shared/exchange.h>
 
 #include <math.h>
 #include <string.h>
@@ -38,6 +39,9 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     stats->spray_nl = count_of(&read, VIRGA_GROUND_SPRAY);
     stats->spray_off_ground_nl = count_of(&read, VIRGA_GROUND_SPRAY_OFF);
     stats->touched_nl = count_of(&read, VIRGA_GROUND_TOUCHED);
+    stats->taken_nl = count_of(&read, VIRGA_GROUND_TAKEN);
+    stats->given_nl = count_of(&read, VIRGA_GROUND_GIVEN);
+    stats->given_off_ground_nl = count_of(&read, VIRGA_GROUND_GIVEN_OFF);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->off_ground_nl = count_of(&read, VIRGA_GROUND_OFF_GROUND);
@@ -104,18 +108,41 @@ static void fill_rain(const virga_ground *ground, virga_ground_tick_gpu *out)
         out->rain_per_m2_s = (float)((double)ground->info.open_rain_mm_h / 3.6e6 / virga_drop_volume(diameter));
 }
 
+/* From the low corner of the window, at the height base_m. */
+static void fill_offset(const virga_ground *ground, const double origin_m[3], float offset[3])
+{
+    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
+    offset[0] = (float)(origin_m[0] - ground->window.low[0] * tile_m);
+    offset[1] = (float)(origin_m[1] - ground->base_m);
+    offset[2] = (float)(origin_m[2] - ground->window.low[1] * tile_m);
+}
+
+/* The cells that are wholly in the region, and in the window. A millionth of a cell does not count. */
+static void fill_exchange(const virga_ground *ground, virga_ground_tick_gpu *out)
+{
+    const virga_ground_exchange *exchange = &ground->info.exchange;
+    const double cell = (double)ground->def.cell_m;
+    if (!exchange->buffer)
+        return;
+    fill_offset(ground, exchange->origin_m, out->exchange_offset);
+    for (int axis = 0; axis < 2; axis++) {
+        const double low = ground->window.low[axis] * (double)VIRGA_GROUND_TILE;
+        const double first = ceil(exchange->low_m[axis] / cell - 1e-6),
+                     end = floor(exchange->high_m[axis] / cell + 1e-6);
+        out->region_low[axis] = (int32_t)fmin(fmax(first, low), low + ground->def.cells);
+        out->region_high[axis] = (int32_t)fmin(fmax(end, low), low + ground->def.cells);
+    }
+}
+
 /* Particles of simulated water touch the ground from a spacing above it on. */
 static void fill_water(const virga_ground *ground, virga_ground_tick_gpu *out)
 {
     const virga_ground_step_info *info = &ground->info;
-    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
     if (!info->water)
         return;
     out->water_count = info->water_count;
     out->water_reach_m = info->water_spacing_m;
-    out->water_offset[0] = (float)(info->water_origin_m[0] - ground->window.low[0] * tile_m);
-    out->water_offset[1] = (float)(info->water_origin_m[1] - ground->base_m);
-    out->water_offset[2] = (float)(info->water_origin_m[2] - ground->window.low[1] * tile_m);
+    fill_offset(ground, info->water_origin_m, out->water_offset);
 }
 
 static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_tick_gpu *out)
@@ -155,6 +182,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
         out->camera[axis] = (float)ground->info.camera_m[axis];
     fill_material_map(ground, out);
     fill_water(ground, out);
+    fill_exchange(ground, out);
     ground_fill_soils(&ground->settings, cell, out->soils);
     ground_standing_fill(ground->standing, out->soils, out->standing);
     ground_far_fill(ground, out);
@@ -423,6 +451,23 @@ static void touch(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
+/* Water comes back from a simulation, then others of the cells give theirs to it. */
+static void exchange(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->base.context;
+    const virga_ground_exchange *with = &ground->info.exchange;
+    if (!with->buffer)
+        return;
+    const VkDeviceSize groups = with->offset + offsetof(virga_exchange_gpu, given_groups);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.exchange");
+    push_tick(ground, 0);
+    bind(ground, cmd);
+    virga_dispatch_indirect_and_barrier(context, cmd, ground->receive, with->buffer, groups);
+    virga_dispatch_indirect_and_barrier(context, cmd, ground->receive_soak, with->buffer, groups);
+    virga_dispatch_and_barrier(context, cmd, ground->take, 1);
+    virga_pass_end(context, cmd, scope);
+}
+
 static void measure(virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
@@ -493,6 +538,20 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
 }
 
+static virga_result check_exchange(const virga_ground *ground, const virga_ground_exchange *exchange)
+{
+    const virga_context *context = ground->base.context;
+    const virga_log *log = &context->log;
+    if (virga_settings_check_positions(log, "step_info.exchange.origin_m", exchange->origin_m, 3) ||
+        virga_settings_check_positions(log, "step_info.exchange.low_m", exchange->low_m, 2) ||
+        virga_settings_check_positions(log, "step_info.exchange.high_m", exchange->high_m, 2))
+        return VIRGA_ERROR_INVALID;
+    if (exchange->buffer && virga_host_list_check(context, "step_info.exchange", exchange->offset, exchange->size,
+                                                  sizeof(virga_exchange_gpu)))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
 static virga_result check_buffers(const virga_ground *ground, const virga_ground_step_info *info)
 {
     const virga_context *context = ground->base.context;
@@ -509,6 +568,8 @@ static virga_result check_buffers(const virga_ground *ground, const virga_ground
         return virga_wrong_argument(&context->log,
                                     "step_info.water: expected an aligned offset, a spacing of 0 to 10 m, "
                                     "and particles that fit into a storage buffer");
+    if (check_exchange(ground, &info->exchange))
+        return VIRGA_ERROR_INVALID;
     if (info->splash_rules && info->splash_rules_offset % rules_alignment)
         return virga_wrong_argument(
             &context->log, "step_info.splash_rules_offset: expected a multiple of %llu on this device, got %llu",
@@ -560,6 +621,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     follow(ground, cmd, info);
     ground->stats.tiles_cached = ground->window.cached_count;
     touch(ground, cmd);
+    exchange(ground, cmd);
     if (!info->ticks) {
         push_tick(ground, 0);
         bind(ground, cmd);

@@ -3,6 +3,8 @@
  *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, in the next step
  *       \-> hits -> panes
  *
+ *   cells of the ground <-> the host's solver of water (virga/fluid.h), whose particles the host gives to water
+ *
  *   the host's particles -> water -> droplets that leave it -> splash, which tells water what it took back */
 #include "scene/scene_internal.h"
 
@@ -132,7 +134,7 @@ static void fill_touching(const virga_scene *scene, const virga_scene_frame *fra
 {
     const virga_water *water = scene_find(scene, &water_type, 0);
     virga_water_settings settings;
-    if (!water || !frame->water.count)
+    if (!water || !frame->water.count || frame->exchange.fluid) /* that water is counted */
         return;
     virga_water_get(water, &settings);
     info->water = frame->water.particles;
@@ -140,6 +142,33 @@ static void fill_touching(const virga_scene *scene, const virga_scene_frame *fra
     info->water_count = frame->water.count;
     info->water_spacing_m = settings.spacing_m;
     memcpy(info->water_origin_m, frame->water.origin_m, sizeof info->water_origin_m);
+}
+
+/* Cells and the host's solver give water to each other. */
+static void fill_exchange(const virga_scene_frame *frame, virga_ground_step_info *info)
+{
+    const double *origin = frame->exchange.origin_m;
+    virga_fluid_exchange from;
+    virga_fluid_exchange_get(frame->exchange.fluid, &from);
+    virga_ground_exchange *to = &info->exchange;
+    *to = (virga_ground_exchange){.buffer = from.buffer, .offset = from.offset, .size = from.size};
+    memcpy(to->origin_m, origin, sizeof to->origin_m);
+    for (int axis = 0; axis < 2; axis++) {
+        to->low_m[axis] = origin[2 * axis] + (double)from.low_m[axis];
+        to->high_m[axis] = origin[2 * axis] + (double)from.high_m[axis];
+    }
+}
+
+static virga_result check_ground(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame)
+{
+    const virga_log *log = &scene->context->log;
+    const virga_effect *fluid = (const virga_effect *)frame->exchange.fluid;
+    (void)index;
+    if (!fluid)
+        return VIRGA_OK;
+    if (fluid->context != scene->context)
+        return virga_wrong_argument(log, "scene_frame.exchange.fluid: expected a solver of the scene's context");
+    return virga_settings_check_positions(log, "scene_frame.exchange.origin_m", frame->exchange.origin_m, 3);
 }
 
 static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
@@ -151,6 +180,8 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
     memcpy(info.ripple_center_m, frame->ripple_center_m, sizeof info.ripple_center_m);
     fill_rainfall(rain_of(scene), &info);
     fill_touching(scene, frame, &info);
+    if (frame->exchange.fluid)
+        fill_exchange(frame, &info);
     if (splash)
         fill_splashes(splash, &info);
     return virga_ground_step(scene_find(scene, &ground_type, index), cmd, &info);
@@ -406,7 +437,8 @@ enum { DRAW_SPLASH, DRAW_GROUND, DRAW_WATER, DRAW_RAIN, DRAW_PANES };
 const scene_kind scene_kinds[] = {
     {&water_type, DRAW_WATER, count_water, DEF(water), .step = step_water},
     {&rain_type, DRAW_RAIN, .def = DEF(rain), .step = step_rain},
-    {&ground_type, DRAW_GROUND, count_ground, DEF(ground), share_ground, .step = step_ground},
+    {&ground_type, DRAW_GROUND, count_ground, DEF(ground), share_ground, .check_frame = check_ground,
+     .step = step_ground},
     {&splash_type, DRAW_SPLASH, count_splash, DEF(splash), share_splash, .step = step_splash},
     {&glass_type, DRAW_PANES, count_panes, .share = share_pane, .check_frame = check_pane, .step = step_pane},
 #ifdef SCENE_EXTRA_KINDS /* an effect of the tests */

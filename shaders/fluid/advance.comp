@@ -19,6 +19,10 @@
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
 
+#define FOREVER      1e30 // s
+#define FILM_DENSITY 0.6 // without the floor's part, of which an even sheet of particles has 0.7
+#define SIDES        0.75 // spacings from an open side at which a particle has left. Water at rest keeps half of one.
+
 shared uint group_speed2;
 
 vec4 own;
@@ -63,6 +67,24 @@ void leave_body(uint touch, inout vec3 p, inout vec3 velocity)
     touches[touch].xyz = floatBitsToUint(given);
 }
 
+// For how long a particle has been at rest (s): behind the pressures. FOREVER: it leaves the box. Particles come to
+// rest near the floor, and not in the region in which water is taken from the ground.
+void note_rest(uint i, uint slot, vec3 p, float speed2)
+{
+    const vec2 low = vec2(frame.region_low_m[0], frame.region_low_m[1]);
+    const vec2 high = vec2(frame.region_high_m[0], frame.region_high_m[1]);
+    const bool outside = any(lessThan(p.xz, low)) || any(greaterThanEqual(p.xz, high));
+    const vec3 from_low = p - to_vec(frame.low_m), from_high = to_vec(frame.high_m) - p;
+    const vec2 nearest = min(min(from_low.xz, from_high.xz), from_high.yy);
+    const bool leaves = frame.open_sides != 0u && min(nearest.x, nearest.y) < SIDES * frame.spacing_m;
+    const float around = velocities[i].w - wall(max(from_low.y, 0.0) * frame.inv_spacing_m).x; // density without floor
+    const bool is_film = around < FILM_DENSITY && from_low.y < frame.spacing_m;
+    const bool is_slow = p.y < frame.rest_top_m && speed2 < (is_film ? frame.film_speed2 : frame.rest_speed2);
+    const uint at = frame.max_particles + slot;
+    const float rest = is_slow ? slot_pressures[at].x + state.dt_s : 0.0;
+    slot_pressures[at].x = outside ? leaves ? FOREVER : rest : 0.0;
+}
+
 // Returns the square of the particle's speed.
 float advance(uint i, vec3 velocity)
 {
@@ -77,6 +99,8 @@ float advance(uint i, vec3 velocity)
         particles[slot].position[axis] = p[axis];
         particles[slot].velocity[axis] = velocity[axis];
     }
+    if (WITH_EXCHANGE)
+        note_rest(i, slot, p, dot(velocity, velocity));
     return dot(velocity, velocity);
 }
 

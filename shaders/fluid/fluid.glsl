@@ -9,6 +9,7 @@
 
 layout(constant_id = 0) const uint FORM = 0u;
 const bool WITH_BODIES = (FORM & VIRGA_FLUID_FORM_BODIES) != 0u;
+const bool WITH_EXCHANGE = (FORM & VIRGA_FLUID_FORM_EXCHANGE) != 0u;
 
 #ifndef STATE_ACCESS
 #define STATE_ACCESS readonly

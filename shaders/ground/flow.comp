@@ -103,18 +103,31 @@ uint low_index(uint pair, bool along_z, uint odd)
     return (tile << (2 * TILE_SHIFT)) | (local.y << TILE_SHIFT) | local.x;
 }
 
+// Whether only one of two cells is in the region whose water is simulated. No water flows over its border in cells: the
+// particles are there, which the cells outside do not see.
+bool is_border(ivec2 low_cell, ivec2 high_cell)
+{
+    const ivec2 low = ivec2(tick.region_low[0], tick.region_low[1]);
+    const ivec2 high = ivec2(tick.region_high[0], tick.region_high[1]);
+    const bool first = all(greaterThanEqual(low_cell, low)) && all(lessThan(low_cell, high));
+    const bool second = all(greaterThanEqual(high_cell, low)) && all(lessThan(high_cell, high));
+    return first != second;
+}
+
 void run_pair(uint pair, bool along_z, inout Lost lost)
 {
     const uint cell_index = low_index(pair, along_z, pairs >> 1);
     const ivec2 low_cell = cell_at_index(cell_index);
-    const uint found = index_of_cell(low_cell + (along_z ? ivec2(0, 1) : ivec2(1, 0)));
+    const ivec2 high_cell = low_cell + (along_z ? ivec2(0, 1) : ivec2(1, 0));
+    const uint found = index_of_cell(high_cell);
     const uint other = found == NO_CELL ? cell_index : found;
     const uvec2 own_words = cell_words[cell_index], other_words = cell_words[other];
     virga_cell_gpu cell = virga_cell_gpu(own_words.x, own_words.y);
     const virga_floor_gpu low_floor = floor_of(cell_index), high_floor = floor_of(other);
     const Surface low = Surface(low_floor.height_um, low_floor.material, cell.free_nl);
     const Surface high = Surface(high_floor.height_um, high_floor.material, other_words.x);
-    const bool both = found != NO_CELL && low.material != NO_GROUND && high.material != NO_GROUND;
+    const bool both = found != NO_CELL && low.material != NO_GROUND && high.material != NO_GROUND &&
+        !is_border(low_cell, high_cell);
     const int inflow = both ? flow_between(low, high) : 0;
     const int half_um = inflow / (2 * tick.nl_per_um);
     swings[cell_index] = with_swing(swings[cell_index], along_z, half_um);

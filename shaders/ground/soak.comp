@@ -5,24 +5,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "pieces.glsl"
+#include "soak.glsl"
 
 layout(local_size_x = 64) in;
-layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
 
 const ivec2 around[5] = ivec2[5](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
-
-void soak(uint cell_index)
-{
-    // Nothing is added in this pass: of all invocations that look at this cell, one finds the sum and the others 0.
-    const uint given = atomicExchange(arrivals[cell_index].given_nl, 0u);
-    if (given == 0u)
-        return;
-    const uvec2 words = cell_words[cell_index];
-    const virga_cell_gpu cell = virga_cell_gpu(words.x, words.y);
-    const uint capacity = tick.soils[floor_of(cell_index).material].capacity_nl;
-    const uint absorbed = min(given, capacity - min(cell.held_nl, capacity));
-    cell_words[cell_index] = uvec2(cell.free_nl + (given - absorbed), cell.held_nl + absorbed);
-}
 
 // The cells over which land.comp spread a piece that stands for several drops.
 void soak_around(Piece piece, int spread)

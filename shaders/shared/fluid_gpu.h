@@ -23,7 +23,8 @@ typedef struct virga_fluid_shapes_gpu virga_fluid_shapes_gpu;
 #define VIRGA_FLUID_ERROR_SHIFT 8u      /* from a workgroup's sum to the sum of all */
 
 /* Bits of the specialisation constant 0 of all passes. */
-#define VIRGA_FLUID_FORM_BODIES 1u
+#define VIRGA_FLUID_FORM_BODIES   1u
+#define VIRGA_FLUID_FORM_EXCHANGE 2u
 
 /* Maps of bodies, see fluid/body_mesh.h. */
 #define VIRGA_FLUID_MAP_GRADIENT 4.0 /* largest gradient (1 / spacing) */
@@ -53,6 +54,19 @@ struct virga_fluid_step_gpu {
     uint bodies;
     uint max_contacts;    /* of each body */
     float body_speed_m_s; /* of the fastest driven body */
+    /* Water that goes to the ground and comes from it. */
+    uint max_particles;
+    uint max_exchanged;
+    uint exchanged; /* slots from 0 on, of particles that come from the ground */
+    uint particle_nl;
+    uint gives_back;       /* 1: particles at rest go to the ground */
+    uint open_sides;       /* 1: and those that touch sides or ceiling of the box */
+    float rest_speed2;     /* m^2/s^2, a slower particle is at rest */
+    float film_speed2;     /* the same where water is thin */
+    float rest_s;          /* for that long */
+    float rest_top_m;      /* below that height */
+    float region_low_m[2]; /* x and z: there none is given back */
+    float region_high_m[2];
 };
 
 /* What does not change of a body. Lengths in m, in the axes of its mesh, from its center of mass. */
@@ -108,7 +122,7 @@ struct virga_fluid_state_gpu {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_OFFSET(virga_fluid_step_gpu, spacing_m, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 120);
+VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 176);
 VIRGA_ASSERT_SIZE(virga_fluid_add_gpu, 52);
 VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 108);
 VIRGA_ASSERT_SIZE(virga_fluid_shape_gpu, 116);

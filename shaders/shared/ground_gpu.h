@@ -104,6 +104,10 @@ struct virga_ground_tick_gpu {
     uint water_count;      /* particles */
     float water_offset[3]; /* m, from the window's low corner, at the height base_m, to the origin of their positions */
     float water_reach_m;   /* height of their centers above the ground up to which they touch it */
+    /* Water that becomes particles of a simulation. */
+    float exchange_offset[3]; /* as water_offset, to the origin of that simulation */
+    int region_low[2];        /* cells of the world that give it, low corner */
+    int region_high[2];       /* behind the last ones; not above region_low: none does */
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
@@ -146,13 +150,16 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_SPRAY          9  /* part of LANDED that is spray of simulated water */
 #define VIRGA_GROUND_SPRAY_OFF      10 /* part of OFF_GROUND that is */
 #define VIRGA_GROUND_TOUCHED        11 /* from simulated water that touched it */
-#define VIRGA_GROUND_FIRST_MEASURED 12
-#define VIRGA_GROUND_FILM           12 /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES        13 /* free water of puddles */
-#define VIRGA_GROUND_HELD           14 /* in pores */
-#define VIRGA_GROUND_CACHED         15 /* all water of cached tiles, which are outside the window */
-#define VIRGA_GROUND_CELLS          16 /* number of cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS         22
+#define VIRGA_GROUND_TAKEN          12 /* became particles of a simulation */
+#define VIRGA_GROUND_GIVEN          13 /* came back from it */
+#define VIRGA_GROUND_GIVEN_OFF      14 /* came back where there is no ground */
+#define VIRGA_GROUND_FIRST_MEASURED 15
+#define VIRGA_GROUND_FILM           15 /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES        16 /* free water of puddles */
+#define VIRGA_GROUND_HELD           17 /* in pores */
+#define VIRGA_GROUND_CACHED         18 /* all water of cached tiles, which are outside the window */
+#define VIRGA_GROUND_CELLS          19 /* number of cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS         25
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
@@ -161,7 +168,7 @@ VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 212 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 240 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

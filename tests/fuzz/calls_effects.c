@@ -133,7 +133,8 @@ COMMON(glass, CALLS_GLASS,
        WILD_SETTINGS(CALLS_BOOL(virga_glass_settings, compress), CALLS_BOOL(virga_glass_settings, opaque),
                      CALLS_BOOL(virga_glass_settings, still_behind)))
 COMMON(water, CALLS_WATER, WILD_SETTINGS(CALLS_BOOL(virga_water_settings, hand_over)))
-COMMON(fluid, CALLS_FLUID, CALLS_WILD_ALL(c, &settings))
+COMMON(fluid, CALLS_FLUID,
+       WILD_SETTINGS(CALLS_BOOL(virga_fluid_settings, gives_back), CALLS_BOOL(virga_fluid_settings, open_sides)))
 COMMON(lens, CALLS_LENS, CALLS_WILD_ALL(c, &settings))
 BASIC(environment, CALLS_ENVIRONMENT, CALLS_WILD_ALL(c, &settings))
 

@@ -169,6 +169,23 @@ void call_virga_rain_write_points(calls *c)
 
 /* ---- ground */
 
+/* The lists of a solver of the same context. */
+static void fill_exchange(calls *c, uint32_t context, virga_ground_exchange *out)
+{
+    const calls_handle fluid = calls_pick(c, CALLS_FLUID);
+    virga_fluid_exchange exchange = {0};
+    if (fluid.object && fluid.context == context)
+        virga_fluid_exchange_get(fluid.object, &exchange);
+    *out = (virga_ground_exchange){.buffer = exchange.buffer, .offset = exchange.offset, .size = exchange.size};
+    for (int axis = 0; axis < 2; axis++) {
+        out->low_m[axis] = calls_number(c, -2, 2);
+        out->high_m[axis] = calls_number(c, -2, 2);
+    }
+    if (!c->device->honest)
+        CALLS_WILD_ALL(c, out);
+    out->buffer = exchange.buffer;
+}
+
 /* The impacts of the rain that the step stands beside; where handles are not checked, anything. */
 static void fill_events(calls *c, uint32_t context, virga_ground_step_info *info)
 {
@@ -191,7 +208,8 @@ void call_virga_ground_step(calls *c)
     static const calls_member kept[] = {
         CALLS_KEPT(virga_ground_step_info, meshes),       CALLS_KEPT(virga_ground_step_info, mesh_count),
         CALLS_KEPT(virga_ground_step_info, materials),    CALLS_KEPT(virga_ground_step_info, impacts),
-        CALLS_KEPT(virga_ground_step_info, splash_rules), CALLS_KEPT(virga_ground_step_info, returned_droplets)};
+        CALLS_KEPT(virga_ground_step_info, splash_rules), CALLS_KEPT(virga_ground_step_info, returned_droplets),
+        CALLS_KEPT(virga_ground_step_info, exchange)};
     const calls_handle h = calls_pick(c, CALLS_GROUND), rain = calls_pick(c, CALLS_RAIN);
     virga_occluder meshes[2];
     VkCommandBuffer cmd;
@@ -204,6 +222,7 @@ void call_virga_ground_step(calls *c)
     if (!rain.object)
         info.first_tick = info.ticks = 0;
     fill_events(c, h.context, &info);
+    fill_exchange(c, h.context, &info.exchange);
     if (!c->device->honest) {
         calls_fill_image(c, VK_FORMAT_R8_UINT, &info.materials.image);
         calls_doubles(c, info.materials.high_m, 2, 0, 10);

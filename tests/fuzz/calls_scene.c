@@ -128,11 +128,11 @@ static void fill_panes(calls *c, virga_scene_pane panes[2])
 void call_virga_scene_record(calls *c)
 {
     static const calls_member kept[] = {
-        CALLS_KEPT(virga_scene_frame, occluders),  CALLS_KEPT(virga_scene_frame, occluder_count),
-        CALLS_KEPT(virga_scene_frame, materials),  CALLS_KEPT(virga_scene_frame, view),
-        CALLS_KEPT(virga_scene_frame, views),      CALLS_KEPT(virga_scene_frame, view_count),
-        CALLS_KEPT(virga_scene_frame, panes),      CALLS_KEPT(virga_scene_frame, water),
-        CALLS_BOOL(virga_scene_frame, defer_panes)};
+        CALLS_KEPT(virga_scene_frame, occluders), CALLS_KEPT(virga_scene_frame, occluder_count),
+        CALLS_KEPT(virga_scene_frame, materials), CALLS_KEPT(virga_scene_frame, view),
+        CALLS_KEPT(virga_scene_frame, views),     CALLS_KEPT(virga_scene_frame, view_count),
+        CALLS_KEPT(virga_scene_frame, panes),     CALLS_KEPT(virga_scene_frame, water),
+        CALLS_KEPT(virga_scene_frame, exchange),  CALLS_BOOL(virga_scene_frame, defer_panes)};
     const calls_handle h = calls_pick(c, CALLS_SCENE);
     virga_view view, views[2];
     virga_scene_pane panes[2];
@@ -155,6 +155,8 @@ void call_virga_scene_record(calls *c)
     frame.occluders = calls_once_in(c, 4) && !c->device->honest ? NULL : occluders;
     frame.water.particles = c->device->buffer(c);
     frame.water.count = calls_below(c, 100);
+    if (calls_once_in(c, 2))
+        frame.exchange.fluid = calls_pick(c, CALLS_FLUID).object; /* that of another context is refused */
     CALLS_WILD(c, &frame, kept);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags | CALLS_SILENT, virga_scene_record, h.object, cmd, wrong ? NULL : &frame);

@@ -210,6 +210,7 @@ void calls_fill_fluid_def(calls *c, virga_fluid_def *out)
     SMALL(max_cells, 4096, 32768);
     SMALL(max_substeps, 1, 2);
     SMALL(max_iterations, 1, 4);
+    SMALL(max_exchanged, 0, 64);
     if (!c->device->honest)
         CALLS_WILD_ALL(c, out);
 }

@@ -120,6 +120,12 @@ void call_virga_fluid_step(calls *c)
         CALLS_TRY(c, h.context, flags, virga_fluid_step, h.object, cmd, wrong ? NULL : &info);
 }
 
+void call_virga_fluid_exchange_get(calls *c)
+{
+    virga_fluid_exchange exchange;
+    CALLS_DO(c, virga_fluid_exchange_get, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &exchange);
+}
+
 void call_virga_fluid_particles(calls *c)
 {
     virga_fluid_buffer particles;

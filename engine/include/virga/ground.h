@@ -178,6 +178,28 @@ typedef struct virga_ground_material_map {
     double low_m[2], high_m[2];
 } virga_ground_material_map;
 
+/* Water that stands in cells becomes particles of a simulation, and comes back from it. */
+typedef struct virga_ground_exchange {
+    /* As virga_fluid_exchange_get returns them: a virga_exchange_gpu and its two lists, ready to be read by compute
+     * shaders and as indirect arguments. VK_NULL_HANDLE: no water is exchanged. */
+    VkBuffer buffer;
+
+    /* A multiple of the device's minStorageBufferOffsetAlignment and of 4. */
+    VkDeviceSize offset;
+
+    /* Bytes from there. 0: all of the buffer. */
+    VkDeviceSize size;
+
+    /* [-1e9; 1e9] position in the world (m) that the particles' positions are relative to. */
+    double origin_m[3];
+
+    /* [-1e9; 1e9] corners (x, z) of the region in the world (m) whose water is simulated. Cells that are wholly in it
+     * give their water, as many whole particles as they have; a remainder and a film of 0.05 mm (or what a rough
+     * material hides) stay in the cell, and so does all that the simulation has no room for. In cells no water flows
+     * over its border. If high_m is not above low_m, no cell gives water; what comes back lands anyway. */
+    double low_m[2], high_m[2];
+} virga_ground_exchange;
+
 /* Arguments of one step. */
 typedef struct virga_ground_step_info {
     /* Middle of the window, which follows it in whole tiles. Ground is found within 256 m above and below the camera's
@@ -247,6 +269,10 @@ typedef struct virga_ground_step_info {
 
     /* [-1e9; 1e9] position in the world (m) that their positions are relative to. */
     double water_origin_m[3];
+
+    /* (optional) Water that goes into a simulation and comes back. Costs a pass over the cells of the region in one
+     * workgroup (about 0.1 ms for 10,000 cells on software Vulkan), and two over the particles that come back. */
+    virga_ground_exchange exchange;
 } virga_ground_step_info;
 
 /* Lets the impacts land, runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read by
@@ -387,7 +413,8 @@ VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer,
 
 /* The newest statistics of completed frames. Water is in nanolitres, since creation or, in the last group, now. While
  * `measure` is on, and as long as rain drops no impact for lack of room:
- *     start + landed + touched = film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
+ *     start + landed + touched + given - taken =
+ *         film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
 typedef struct virga_ground_stats {
     /* 0: none yet. */
     uint64_t frame_index;
@@ -407,6 +434,10 @@ typedef struct virga_ground_stats {
 
     /* Taken from simulated water that touched it. The simulation keeps its volume. */
     uint64_t touched_nl;
+
+    /* Became particles of a simulation, and came back from it: to cells, and where there is no ground (or a cell is
+     * full). What is neither is in the simulation, or in a list between the two (virga/shared/exchange.h). */
+    uint64_t taken_nl, given_nl, given_off_ground_nl;
 
     /* Gone: sunk in, run into drains, evaporated, dropped with tiles. */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, evicted_nl;

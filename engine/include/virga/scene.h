@@ -7,6 +7,7 @@
 #ifndef VIRGA_SCENE_H
 #define VIRGA_SCENE_H
 
+#include <virga/fluid.h>
 #include <virga/glass.h>
 #include <virga/ground.h>
 #include <virga/rain.h>
@@ -113,6 +114,16 @@ typedef struct virga_scene_pane {
     float shelter;
 } virga_scene_pane;
 
+/* Water that goes from the ground's cells into a solver of the host, and back. */
+typedef struct virga_scene_exchange {
+    /* Of the context of the scene, with fluid_def.max_exchanged above 0. Stepped by the host in the same frame, before
+     * virga_scene_record. NULL: none. */
+    virga_fluid *fluid;
+
+    /* [-1e9; 1e9] position in the world (m) of the origin of its particles. */
+    double origin_m[3];
+} virga_scene_exchange;
+
 /* What a frame needs outside rendering. */
 typedef struct virga_scene_frame {
     /* [0; 10] host time since the last frame (s). */
@@ -162,6 +173,11 @@ typedef struct virga_scene_frame {
     /* The particles of the scene's water, as virga_water_step takes them. They are read when the device executes the
      * frame. All zero: there is no water in this frame. Not used in a scene without water. */
     virga_water_step_info water;
+
+    /* (optional) The ground's water in the region of that solver's step becomes particles of the next one, and
+     * particles at rest become water of the ground again, see virga_fluid_exchange_get. The ground then gets no film
+     * from the particles that touch it, as all water is counted. Not used in a scene without ground. */
+    virga_scene_exchange exchange;
 
     /* false: panes are prepared in virga_scene_record, which reads view->color if it is given. So it must hold a
      * picture by then; in a game that of the previous frame is fine. true: panes are stepped, but not prepared. Call
