@@ -42,7 +42,7 @@ static const virga_setting_row def_rows[] = {
 static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO, .look = true),
     SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM, .look = true),
-    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_TEXTURES, VIRGA_GLASS_STYLE_PHYSICAL, .look = true),
+    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_FRONT, VIRGA_GLASS_STYLE_PHYSICAL, .look = true),
     SETTING(ENUM, texture_shape, 0, VIRGA_GLASS_TEXTURE_HEMISPHERE, VIRGA_GLASS_TEXTURE_CAP, .look = true),
     SETTING(FLOAT, advancing_deg, 5, 175, 0),
     SETTING(FLOAT, receding_deg, 1, 175, 0, .max_member = offsetof(virga_glass_settings, advancing_deg)),
@@ -312,6 +312,7 @@ static const virga_effect_pass passes[] = {
     PICTURE(mist, mist_passes, .forms = GLASS_MIST_FORMS),
     PICTURE(texture, texture_passes, .forms = 2),
     PICTURE(drop_quads, drop_quads),
+    PICTURE(front_quads, front_quads),
 };
 
 /* The sizes that may shrink to fit the memory budget: the number of drops and the resolution of the height map. The

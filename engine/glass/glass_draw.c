@@ -473,6 +473,7 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
     seen->style = glass->settings.style;
     seen->shapes = !glass_is_all_textured(&glass->settings);
     seen->textures = glass_is_textured(&glass->settings);
+    seen->front = glass_is_front(&glass->settings);
     return virga_check_uploads(context);
 }
 
@@ -499,6 +500,7 @@ static const uint32_t physical[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 
 static const uint32_t paper_draws[4] = {ALONE, ALONE | DEPTH, PLATE, PLATE | DEPTH};
 static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
 static const uint32_t textured_draws[2] = {0, DEPTH};
+static const uint32_t front_draws[2] = {0, VIRGA_GLASS_DRAW_LAMPS};
 static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
                                        ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
 
@@ -515,6 +517,8 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
      textured_draws, 2},
     {"glass.textured_refraction", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FORM(glass_draw_drop_refraction_frag),
      textured_draws, 2, .replace = true},
+    {"glass.front", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_front_frag), front_draws,
+     2, .no_depth = true},
 };
 
 uint32_t glass_draw_constant(const void *glass)
@@ -554,6 +558,12 @@ static void choose_draws(const glass_prepared *seen, const virga_effect_target *
     used[DRAW_MIST] = refraction ? NULL : found->draws[GLASS_DRAW_MIST + solid + plate + depth];
     used[DRAW_SHAPES] = seen->shapes ? found->draws[shapes] : NULL;
     used[DRAW_TEXTURED] = seen->textures ? found->draws[textured] : NULL;
+    if (seen->front) {
+        /* What film and mist do to a lens is not drawn, and no pixel of a disc out of focus looks up one other. */
+        used[DRAW_MIST] = NULL;
+        used[DRAW_TEXTURED] =
+            refraction ? NULL : found->draws[GLASS_DRAW_FRONT + (seen->draw & VIRGA_GLASS_DRAW_LAMPS ? 1 : 0)];
+    }
 }
 
 static virga_result draws_ready(const virga_pipeline *const used[DRAWS])

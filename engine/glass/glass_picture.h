@@ -20,7 +20,8 @@
  * Paper style and mist: without and with the scene's depth, without and with the host's color image.
  * Refraction vectors: in either style, without and with the scene's depth.
  * Mist also has pipelines for opaque surfaces.
- * Drops as textures, and their refraction vectors: without and with the scene's depth. */
+ * Drops as textures, and their refraction vectors: without and with the scene's depth.
+ * Drops on the camera's front element: without and with lights. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
@@ -28,10 +29,11 @@ enum {
     GLASS_DRAW_MIST = 24,
     GLASS_DRAW_TEXTURED = 32,
     GLASS_DRAW_TEXTURED_REFRACTION = 34,
+    GLASS_DRAW_FRONT = 36,
     GLASS_DRAW_OF_PAPER = 2, /* (refraction) offset of the paper style */
     GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) offset of those with the host's color image */
     GLASS_DRAW_OF_SOLID = 4, /* (mist) offset of those for opaque surfaces */
-    GLASS_DRAW_ROWS = 6
+    GLASS_DRAW_ROWS = 7
 };
 
 #define GLASS_GATHER_FILM        16u  /* tiles with film */
@@ -68,7 +70,8 @@ typedef struct glass_prepared {
     bool plate;
     uint32_t draw; /* VIRGA_GLASS_DRAW_... */
     virga_glass_style style;
-    bool shapes, textures; /* drops are drawn from the height map; as textures */
+    bool shapes, textures; /* drops are drawn from the height map; as quads */
+    bool front;            /* on the camera's front element */
 } glass_prepared;
 
 struct glass_picture {
@@ -95,8 +98,8 @@ struct glass_picture {
     virga_bindings *bindings;
     virga_pipeline *ball_passes[2];    /* without and with drops as textures */
     virga_pipeline *texture_passes[2]; /* without and with the scene's depth */
-    virga_pipeline *drop_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy,
-        *plate_shrink;
+    virga_pipeline *drop_quads, *front_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads,
+        *plate_copy, *plate_shrink;
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];              /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS];  /* by GLASS_GATHER_... bits; NULL: not needed yet */
@@ -139,7 +142,9 @@ void glass_picture_forget(virga_glass *glass);
 
 /* A side of a texture: the next power of two. */
 uint32_t glass_texture_texels(uint32_t asked);
-/* Whether all drops are drawn as textures, and whether any are. */
+/* Whether the pane is the camera's front element. */
+bool glass_is_front(const virga_glass_settings *settings);
+/* Whether all drops are drawn as quads, without a height map, and whether any are. */
 bool glass_is_all_textured(const virga_glass_settings *settings);
 bool glass_is_textured(const virga_glass_settings *settings);
 /* Fills what the passes need to know of textures, and chooses those that this prepare makes. */

@@ -21,10 +21,15 @@ uint32_t glass_texture_texels(uint32_t asked)
     return texels;
 }
 
+bool glass_is_front(const virga_glass_settings *settings)
+{
+    return settings->style == VIRGA_GLASS_STYLE_FRONT && !settings->opaque;
+}
+
 /* Drops on a surface that is not glass show what is directly under each of them, which no texture has. */
 bool glass_is_all_textured(const virga_glass_settings *settings)
 {
-    return settings->style == VIRGA_GLASS_STYLE_TEXTURES && !settings->opaque;
+    return (settings->style == VIRGA_GLASS_STYLE_TEXTURES && !settings->opaque) || glass_is_front(settings);
 }
 
 bool glass_is_textured(const virga_glass_settings *settings)
@@ -102,7 +107,10 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
     look->texture_texels = glass->def.texture_texels;
     look->hemispheres = s->texture_shape == VIRGA_GLASS_TEXTURE_HEMISPHERE;
     look->quads_offset = look->bounds_offset + 2 * look->max_tiles;
-    choose_textures(glass, block);
+    if (glass_is_front(s))
+        glass->picture.prepared[glass->base.slot].has_textures = false;
+    else
+        choose_textures(glass, block);
     /* Without a height map no bead of film has a shape: with texels as wide as the pane all film is mist. */
     if (glass_is_all_textured(s))
         look->texel_m[0] = look->texel_m[1] = fmaxf(glass->def.width_m, glass->def.height_m);
@@ -110,7 +118,8 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
 
 bool glass_keeps_textures(const virga_glass *glass, const glass_view_block *block)
 {
-    return glass_is_textured(&glass->settings) && glass->settings.still_behind && !block->look.textures;
+    const virga_glass_settings *s = &glass->settings;
+    return glass_is_textured(s) && !glass_is_front(s) && s->still_behind && !block->look.textures;
 }
 
 void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_view_block *block)
@@ -126,7 +135,7 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
                        (texels + VIRGA_GLASS_TEXTURE_GROUP - 1) / VIRGA_GLASS_TEXTURE_GROUP);
         glass->base.journal.doing |= GLASS_DID_TEXTURES;
     }
-    virga_dispatch_indirect(context, cmd, picture->drop_quads, glass->state->buffer,
-                            offsetof(virga_glass_state_gpu, shown_groups));
+    const virga_pipeline *quads = glass_is_front(&glass->settings) ? picture->front_quads : picture->drop_quads;
+    virga_dispatch_indirect(context, cmd, quads, glass->state->buffer, offsetof(virga_glass_state_gpu, shown_groups));
     virga_pass_end(context, cmd, scope);
 }

@@ -65,7 +65,7 @@ static const scene_keyword pane_kinds[] = {{"paper", 0}, {"clean", 1}, {"dirty",
 static const scene_keyword pane_densities[] = {{"goto", 0},   {"blinn", 1},     {"murakami", 2},
                                                {"wyvill", 3}, {"nishimura", 4}, {NULL, 0}};
 static const scene_keyword pane_blends[] = {{"sum", 0}, {"weighted", 1}, {NULL, 0}};
-static const scene_keyword pane_styles[] = {{"paper", 0}, {"physical", 1}, {"textures", 2}, {NULL, 0}};
+static const scene_keyword pane_styles[] = {{"paper", 0}, {"physical", 1}, {"textures", 2}, {"front", 3}, {NULL, 0}};
 static const scene_keyword pane_texture_shapes[] = {{"cap", 0}, {"hemisphere", 1}, {NULL, 0}};
 static const scene_row pane_rows[] = {
     TEXT(scene_pane, name, 40, "pane", RESTARTS, "of the pane, in statistics"),
@@ -134,7 +134,8 @@ static const scene_row pane_rows[] = {
     NUMBER(scene_pane, threshold, 0.05, 0.95, "0.5", LIVE, "density where a drop ends"),
     NUMBER(scene_pane, impact_s, 0, 2, "0.25", LIVE, "time in which a drop that landed draws its parts in"),
     CHOICE(scene_pane, style, pane_styles, "physical", LIVE,
-           "physical: Snell and Fresnel; paper: the plate displaced; textures: each drop one quad"),
+           "physical: Snell and Fresnel; paper: the plate displaced; textures: each drop one quad; front: on "
+           "the camera's lens, out of focus"),
     NUMBER(scene_pane, paper_shift, 0, 4, "0.35", LIVE, "how far the plate is displaced (paper)"),
     NUMBER(scene_pane, textured_px, 0, 64, "0", LIVE,
            "drops of a smaller diameter on the picture are drawn as textures (physical); 0: none"),

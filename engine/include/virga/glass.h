@@ -257,6 +257,16 @@ typedef enum virga_glass_style {
      * that are far away; create such a pane with a small max_texels. A surface that is not glass (opaque) is drawn in
      * the physical style instead. */
     VIRGA_GLASS_STYLE_TEXTURES = 2,
+
+    /* The pane is the camera's front element: it moves with the camera, some centimetres before its opening and square
+     * to its axis. Drops so near are far out of focus: each becomes a disc with a soft rim, about as large as the
+     * opening seen from the pane, in which a share of the light is what the drop refracts. view.aperture_m and focus_m
+     * say how large and how soft; with an aperture of 0 drops are sharp. The picture behind (view.color) should
+     * already be out of focus itself, as virga_lens makes it. Drops are drawn over everything, whatever the depth; the
+     * opening is round; film and mist are not drawn. There is no height map, so create such a pane with a small
+     * max_texels. Cost: 32 look-ups for each pixel of each drop's disc. virga_glass_draw_refraction draws nothing, as
+     * no pixel shows one other. */
+    VIRGA_GLASS_STYLE_FRONT = 3,
 } virga_glass_style;
 
 /* The shape of drops in textures. */

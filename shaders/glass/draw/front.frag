@@ -1,0 +1,78 @@
+// front.frag - a drop on the camera's front element, far out of focus. Premultiplied.
+// One invocation per pixel of a drop's quad. Reads: quads, nodes, the plate and its copies. Writes: radiance, motion,
+// reactive.
+//
+// The drop covers a share of the opening, the alpha (front_overlap.glsl). Its light is the mean of what the rays
+// through that part show, each refracted at another point of the drop. SAMPLES points on the smaller of the two discs
+// stand for it, each for an equal area; those at the rim of the other disc count by how far they are within. Each shows
+// as much of the plate as the drop bends the light of its area over, so the plate's smaller copies do the rest of the
+// mean. All weights are divided by their sum, so an even scene stays even.
+//
+// Where drops overlap on the picture, one covers the others' light too. Drops that lie beside each other on the pane
+// cover the sum of their shares instead: where all of them cover C, up to C^2 / 2 of the light is between the two.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "gpu/light.glsl"
+#include "drop_inputs.glsl"
+#include "plate.glsl"
+#include "path.glsl"
+#include "drop_path.glsl"
+#include "water_light.glsl"
+#include "temporal.glsl"
+#include "drop_quad.glsl"
+#include "front_overlap.glsl"
+#include "gpu/encode.glsl"
+
+layout(location = 0) in vec2 local; // as in drop.vert: the pixel's ray, in radii from the drop's middle
+layout(location = 2) flat in vec4 amount; // x: radius of the opening, in radii of the drop
+layout(location = 3) flat in uint quad;
+layout(location = 0) out vec4 radiance;
+
+#define SAMPLES 32
+#define TURN 2.39996323   // rad, the golden angle: Vogel's spiral, whose points are as dense everywhere
+#define OUTERMOST 0.97    // radius at which a drop's rim counts as too steep
+#define SPACING (sqrt(3.14159265 / float(SAMPLES))) // a side of a sample's area, of a disc of radius 1
+
+vec2 spiral(int i)
+{
+    const float angle = TURN * float(i);
+    return sqrt((float(i) + 0.5) / float(SAMPLES)) * vec2(cos(angle), sin(angle));
+}
+
+// Where a point of the drop, in radii along the picture's axes, is along the pane's.
+vec2 on_pane(vec2 at)
+{
+    const vec3 across = at.x * normalize(to_vec(view.right)) + at.y * normalize(to_vec(view.up));
+    const vec2 along = vec2(dot(across, along_u), dot(across, along_v));
+    return along * min(1.0, OUTERMOST / max(length(along), 1e-6));
+}
+
+vec3 light_through(float opening)
+{
+    const bool wide = opening >= 1.0; // the drop is the smaller disc
+    const vec2 middle = wide ? vec2(0.0) : local, other = wide ? local : vec2(0.0);
+    const float smaller = min(opening, 1.0), larger = max(opening, 1.0), side = smaller * SPACING;
+    const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < SAMPLES; i++) {
+        const vec2 at = middle + smaller * spiral(i);
+        const float weight = clamp((larger - length(at - other)) / side + 0.5, 1e-4, 1.0);
+        const Path path = path_through_drop(on_pane(at), d, side);
+        sum += weight * vec4(water_light(path, d, Water(1.0, 0.0, 0.0, 1.0, vec2(0.0), LENS.y)), 1.0);
+    }
+    return sum.rgb / sum.a;
+}
+
+void main()
+{
+    const float share = opening_share(length(local), amount.x);
+    if (share <= 0.0)
+        discard;
+    stand_on(vec2(quad_float(quad, 12u), quad_float(quad, 13u)));
+    radiance = for_target(vec4(light_through(amount.x), 1.0) * share);
+#ifdef TEMPORAL
+    write_temporal(vec2(0.0), share);
+#endif
+}

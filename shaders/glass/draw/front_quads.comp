@@ -1,0 +1,61 @@
+// front_quads.comp - drops on the camera's front element: a quad for each, around the disc that it becomes out of focus
+// (front_overlap.glsl). The drop faces the camera and is flat: the middle of its base says where it is.
+// One invocation per live slot. Reads: the live list, drops, nodes. Writes: quads, index buffer, draw arguments.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "drop_size.glsl"
+
+layout(local_size_x = VIRGA_GLASS_GROUP) in;
+layout(scalar, set = 0, binding = 1) readonly buffer Drops { virga_glass_drop_gpu drops[]; };
+layout(scalar, set = 0, binding = 10) readonly buffer List
+{
+    virga_list_gpu list;
+    uint listed[];
+};
+layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; };
+layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
+layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
+
+#define NEAREST_M 0.001 // from the opening; what is nearer is not drawn
+
+// k R of front_overlap.glsl. At least half a pixel, so that a drop before a pinhole has a rim of a pixel.
+float opening_m(float away_m)
+{
+    const float opening = 0.5 * view.lens_px * view.pixel_angle * abs(1.0 - away_m * view.inv_focus);
+    return max(opening, 0.5 * away_m * view.pixel_angle);
+}
+
+// In clip space at a view depth of 1, in the middle of the depth range: so near a drop is before everything, also
+// where the near plane is behind it.
+void write_quad(uint at, vec2 middle, float radius_m, vec4 clip)
+{
+    const float scale = radius_m / clip.w, opening = opening_m(clip.w) / radius_m;
+    const float words[VIRGA_GLASS_QUAD_WORDS] =
+        float[](clip.x / clip.w, clip.y / clip.w, 0.5, 1.0, scale / length(to_vec(view.right)), 0.0, 0.0, 0.0, 0.0,
+                scale / length(to_vec(view.up)), 0.0, 0.0, middle.x, middle.y, radius_m, 1.0 + opening, opening, 0.0,
+                0.0, 0.0);
+    for (uint i = 0u; i < VIRGA_GLASS_QUAD_WORDS; i++)
+        corners[at + i] = floatBitsToUint(words[i]);
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x, slot = listed[min(i, look.pane.max_drops - 1u)];
+    if (i == 0u)
+        work.quads = virga_glass_corners_gpu(3u * state.shown, 1u, look.quads_offset, 0, 0u);
+    if (i >= state.shown)
+        return;
+    const virga_glass_drop_gpu drop = drops[slot];
+    const uint kind = drop.kind & VIRGA_GLASS_KIND;
+    const float radius_m = kind == VIRGA_GLASS_PARTICLE ? look.particle_m : cap_radius(float(drop.water_nl));
+    const vec2 middle = mix(vec2(drop.previous_position[0], drop.previous_position[1]),
+                            vec2(drop.position[0], drop.position[1]), look.share);
+    const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);
+    const bool shown = kind != VIRGA_GLASS_FREE && radius_m > 0.0 && clip.w > NEAREST_M;
+    for (uint corner = 0u; corner < 3u; corner++)
+        corners[look.quads_offset + 3u * i + corner] = shown ? 3u * i + corner : 0u;
+    if (shown)
+        write_quad(look.quads_offset + 3u * look.pane.max_drops + VIRGA_GLASS_QUAD_WORDS * i, middle, radius_m, clip);
+}
