@@ -174,6 +174,7 @@ static const virga_binding_kind exchange_bindings[] = {
     BUFFER(slots),                                  /* 1 */
     BUFFER(slot_pressures),                         /* 2 */
     BUFFER(exchange),                               /* 3 */
+    [FLUID_BIND_LEAVERS] = {STORAGE, COMPUTE},      /* 4 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -206,6 +207,7 @@ static const virga_effect_pass passes[] = {
     STEP_PASS(body_move),
     STEP_PASS(advance),
     STEP_PASS(body_hit),
+    PASS(exchange_spray, .layout = FLUID_LAYOUT_EXCHANGE),
     PASS(exchange_in, .layout = FLUID_LAYOUT_EXCHANGE),
     PASS(exchange_out, .layout = FLUID_LAYOUT_EXCHANGE),
 };

@@ -7,6 +7,8 @@
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
+#include <virga/shared/leaver.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -48,6 +50,11 @@ virga_result fluid_check_region(const virga_fluid *fluid, const virga_fluid_step
     if (virga_settings_check_finite(log, "step_info.region_low_m", info->region_low_m, 2) ||
         virga_settings_check_finite(log, "step_info.region_high_m", info->region_high_m, 2))
         return VIRGA_ERROR_INVALID;
+    if (info->leavers && !fluid->def.max_exchanged)
+        return virga_wrong_argument(log, "step_info.leavers: expected fluid_def.max_exchanged above 0");
+    if (info->leavers)
+        return virga_host_list_check(fluid->base.context, "step_info.leavers", 0, info->leavers_size,
+                                     sizeof(virga_leavers_gpu));
     return VIRGA_OK;
 }
 
@@ -76,11 +83,14 @@ void fluid_fill_exchange(virga_fluid *fluid, const virga_fluid_step_info *info, 
 static void empty(virga_fluid *fluid, VkCommandBuffer cmd)
 {
     virga_context *context = fluid->base.context;
+    const VkDeviceSize begun = offsetof(virga_exchange_gpu, begun);
     const VkDeviceSize slots = fluid->def.max_exchanged * sizeof(virga_particle_gpu);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_COPIES);
     context->vk.CmdFillBuffer(cmd, fluid->slots->buffer, 0, slots, 0);
     context->vk.CmdFillBuffer(cmd, fluid->slot_pressures->buffer, 0, VK_WHOLE_SIZE, 0);
-    context->vk.CmdFillBuffer(cmd, fluid->exchange->buffer, 0, sizeof(virga_exchange_gpu), 0);
+    /* Ids go on: spray remembers them. */
+    context->vk.CmdFillBuffer(cmd, fluid->exchange->buffer, 0, begun, 0);
+    context->vk.CmdFillBuffer(cmd, fluid->exchange->buffer, begun + 4, sizeof(virga_exchange_gpu) - begun - 4, 0);
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES | VIRGA_ARGUMENTS);
     fluid->empties = false;
     fluid->emptied_frame = context->frame_index;
@@ -96,15 +106,23 @@ static void run(virga_fluid *fluid, VkCommandBuffer cmd, const char *name, const
     virga_pass_end(context, cmd, scope);
 }
 
-void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd)
+void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info)
 {
     virga_bound bound[VIRGA_MAX_BINDINGS];
     if (!fluid->def.max_exchanged)
         return;
+    const bool sprays = info->leavers && !fluid->empties; /* they are of water that is gone */
     if (fluid->empties)
         empty(fluid, cmd);
     virga_effect_bound(&fluid->base, fluid->exchange_bindings, bound);
+    bound[FLUID_BIND_LEAVERS] =
+        info->leavers
+            ? (virga_bound){.buffer = info->leavers,
+                            .range = virga_host_list_range(fluid->base.context, info->leavers_size, UINT32_MAX)}
+            : (virga_bound){.buffer = fluid->lists->buffer}; /* not read */
     fluid->exchange_set = virga_bindings_write(fluid->base.context, fluid->exchange_bindings, 0, bound);
+    if (sprays)
+        run(fluid, cmd, "fluid.exchange_spray", fluid->exchange_spray);
     run(fluid, cmd, "fluid.exchange_in", fluid->exchange_in);
 }
 

@@ -47,7 +47,7 @@ typedef struct fluid_body {
 enum { FLUID_LAYOUT_GRID, FLUID_LAYOUT_ADD, FLUID_LAYOUT_STEP, FLUID_LAYOUT_EXCHANGE };
 
 /* Bindings that the step binds itself. */
-enum { FLUID_BIND_ADDED = 3 };
+enum { FLUID_BIND_ADDED = 3, FLUID_BIND_LEAVERS = 4 };
 
 struct virga_fluid {
     virga_effect base; /* first */
@@ -77,7 +77,7 @@ struct virga_fluid {
     virga_ring step_ring, add_ring, shape_ring;
     virga_bindings *add_bindings, *bindings, *exchange_bindings;
     virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;
-    virga_pipeline *exchange_in, *exchange_out;
+    virga_pipeline *exchange_spray, *exchange_in, *exchange_out;
     virga_pipeline *body_contacts, *body_push, *body_move, *body_hit;
     virga_fluid_stats stats;
 
@@ -109,8 +109,8 @@ void fluid_fit_exchanged(virga_fluid_def *def);
 virga_result fluid_check_exchange(const virga_fluid *fluid, const virga_fluid_settings *settings);
 virga_result fluid_check_region(const virga_fluid *fluid, const virga_fluid_step_info *info);
 void fluid_fill_exchange(virga_fluid *fluid, const virga_fluid_step_info *info, virga_fluid_step_gpu *out);
-/* Water of the ground comes in before the substeps, and goes after them. */
-void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd);
+/* Spray leaves and water of the ground comes in before the substeps; water goes to the ground after them. */
+void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info);
 void fluid_exchange_out(virga_fluid *fluid, VkCommandBuffer cmd);
 
 /* ---- fluid_step.c */

@@ -34,6 +34,8 @@ void fluid_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
         fluid->stats.waiting = read.exchange.waiting;
         fluid->stats.particle_nl = read.exchange.particle_nl;
         fluid->stats.taken_nl = (uint64_t)read.exchange.taken_nl[1] << 32 | read.exchange.taken_nl[0];
+        fluid->stats.sprayed_nl = (uint64_t)read.exchange.sprayed_nl[1] << 32 | read.exchange.sprayed_nl[0];
+        fluid->stats.rest_nl = (int64_t)((uint64_t)read.exchange.rest_nl[1] << 32 | read.exchange.rest_nl[0]);
         fluid->stats.given_nl = (uint64_t)read.exchange.given_nl[1] << 32 | read.exchange.given_nl[0];
     }
     fluid_read_bodies(fluid, frame, read.bodies);
@@ -279,7 +281,7 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     fill_step(fluid, info, &step);
     fluid_send_bodies(fluid, cmd, info->dt_s, &step, &shapes);
     fluid->step_offset = virga_ring_push(context, &fluid->step_ring, &step, sizeof step);
-    fluid_exchange_in(fluid, cmd);
+    fluid_exchange_in(fluid, cmd, info);
     fluid->step_particles[context->ring_slot] = fluid->particles;
     if ((fluid->particles || fluid->body_count) && info->dt_s > 0)
         run_substeps(fluid, cmd, &shapes);

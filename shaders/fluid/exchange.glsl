@@ -7,6 +7,10 @@
 
 layout(scalar, set = 0, binding = 0) uniform Step { virga_fluid_step_gpu frame; };
 layout(scalar, set = 0, binding = 1) buffer Particles { virga_particle_gpu particles[]; };
+// The same buffer in words.
+layout(std430, set = 0, binding = 1) buffer ShareBits { uint share_bits[]; };
+#define SHARE_STRIDE 8u
+#define SHARE_AT     3u
 layout(std430, set = 0, binding = 2) buffer SlotPressures { vec2 slot_pressures[]; };
 layout(scalar, set = 0, binding = 3) buffer Exchange {
     virga_exchange_gpu exchange;

@@ -22,11 +22,29 @@ bool is_leaving(uint slot)
     return !inside || rest_of(slot) >= frame.rest_s;
 }
 
+// What the first particle takes along of the rest: never so much that it has no water, or more than 32 bits.
+int rest_with_first()
+{
+    const int least = 1 - int(frame.particle_nl), most = 0x3fffffff;
+    const bool negative = int(exchange.rest_nl[1]) < 0;
+    if (exchange.rest_nl[1] != (negative ? 0xffffffffu : 0u) || (int(exchange.rest_nl[0]) < 0) != negative)
+        return negative ? least : most;
+    return clamp(int(exchange.rest_nl[0]), least, most);
+}
+
 void give(uint slot, uint index)
 {
-    entries[exchange.capacity + index] = virga_exchanged_gpu(particles[slot].position, frame.particle_nl);
+    const uint nl = frame.particle_nl + uint(index == 0u ? rest_with_first() : 0);
+    entries[exchange.capacity + index] = virga_exchanged_gpu(particles[slot].position, nl);
     particles[slot].share = 0.0;
     begin_rest(slot);
+}
+
+void add_signed(inout uint sum[2], int nl)
+{
+    uint carry;
+    sum[0] = uaddCarry(sum[0], uint(nl), carry);
+    sum[1] += (nl < 0 ? 0xffffffffu : 0u) + carry;
 }
 
 void describe(uint given)
@@ -43,6 +61,9 @@ void describe(uint given)
     exchange.given = given;
     exchange.given_groups = uint[3]((given + 63u) / 64u, 1u, 1u);
     add_water(exchange.given_nl, given);
+    const int rest = rest_with_first();
+    add_signed(exchange.given_nl, rest);
+    add_signed(exchange.rest_nl, -rest);
 }
 
 void main()

@@ -16,7 +16,7 @@ struct virga_exchanged_gpu {
     uint water_nl;     /* nl */
 };
 
-/* Head, 80 bytes. Two lists of `capacity` entries follow: what was taken from cells, and what is given to them. The
+/* Head, 96 bytes. Two lists of `capacity` entries follow: what was taken from cells, and what is given to them. The
  * simulation owns them. It says in each step how many particles it has room for, and what it gives; ground takes up to
  * that number, and empties the list of what is given. Whoever reads a list empties it, and whoever writes to one that
  * is not empty leaves it alone. So water is neither lost nor counted twice, whichever of the steps is left out. */
@@ -34,13 +34,17 @@ struct virga_exchange_gpu {
     uint given_groups[3]; /* ceil(given / 64), 1, 1: for an indirect dispatch */
     uint begun;           /* particles that were ever made of taken water, modulo 2^32 */
     uint taken_nl[2];     /* nl, low and high word: all that became particles */
-    uint given_nl[2];     /* nl, all that left the simulation */
+    uint given_nl[2];     /* nl, all that went to the ground */
+    uint sprayed_nl[2];   /* nl, all that left as droplets which fly on their own */
+    /* nl, two's complement: what particles that became droplets had more than these, or less; it goes to the ground
+     * with the next particle */
+    uint rest_nl[2];
     uint pad[2];
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_exchanged_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_exchange_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_exchange_gpu, 96);
 VIRGA_ASSERT_OFFSET(virga_exchange_gpu, given_groups, 40);
 #undef uint
 #endif

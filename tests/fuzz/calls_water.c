@@ -102,9 +102,21 @@ void call_virga_fluid_clear(calls *c)
     CALLS_TRY(c, h.context, calls_of(h.object, CALLS_PLAIN), virga_fluid_clear, h.object);
 }
 
+/* Those of water of the same context. */
+static void fill_leavers(calls *c, uint32_t context, virga_fluid_step_info *info)
+{
+    const calls_handle water = calls_pick(c, CALLS_WATER);
+    virga_water_leavers leavers = {0};
+    if (water.object && water.context == context && calls_once_in(c, 2))
+        virga_water_leavers_get(water.object, &leavers);
+    info->leavers = leavers.leavers;
+    info->leavers_size = leavers.size;
+}
+
 void call_virga_fluid_step(calls *c)
 {
-    static const calls_member kept[] = {CALLS_KEPT(virga_fluid_step_info, particles)};
+    static const calls_member kept[] = {CALLS_KEPT(virga_fluid_step_info, particles),
+                                        CALLS_KEPT(virga_fluid_step_info, leavers)};
     const calls_handle h = calls_pick(c, CALLS_FLUID);
     virga_fluid_step_info info = {.dt_s = 0.01f};
     VkCommandBuffer cmd;
@@ -114,6 +126,7 @@ void call_virga_fluid_step(calls *c)
         info.particles = c->device->buffer(c);
         info.count = calls_below(c, 200);
     }
+    fill_leavers(c, h.context, &info);
     if (!c->device->honest)
         CALLS_WILD(c, &info, kept);
     if (calls_cmd(c, h.context, &flags, &cmd))

@@ -160,7 +160,8 @@ typedef struct virga_fluid_block {
  * particles, one block too many, or more particles than there is room for. */
 VIRGA_API virga_result virga_fluid_add(virga_fluid *fluid, const virga_fluid_block *block);
 
-/* Removes all water, also blocks that were not yet added, and all bodies. The next particle has the id 0 again. */
+/* Removes all water, also blocks that were not yet added, what is on its way to and from the ground, and all bodies.
+ * The host's next particle has the id 0 again. */
 VIRGA_API virga_result virga_fluid_clear(virga_fluid *fluid);
 
 /* ---- bodies
@@ -243,6 +244,15 @@ typedef struct virga_fluid_step_info {
     /* [-10000; 10000] corners (x, z) of the region in which water of the ground becomes particles, and none goes back
      * (m, from the particles' origin). Limited to the box. If region_high_m is not above region_low_m there is none. */
     float region_low_m[2], region_high_m[2];
+
+    /* (def.max_exchanged above 0; optional) As virga_water_leavers_get returns them, of the newest step of water with
+     * these particles: its spray. Particles whose droplets now fly on their own end, as their water is with the
+     * droplets, which land on the ground (virga_water_settings.hand_over). VK_NULL_HANDLE: they go along unseen, and
+     * their water is there twice. */
+    VkBuffer leavers;
+
+    /* Bytes from its start. 0: all of it. */
+    VkDeviceSize leavers_size;
 } virga_fluid_step_info;
 
 /* Moves the water on by the time of a step. Outside rendering, at most once per frame. */
@@ -271,7 +281,8 @@ VIRGA_API void virga_fluid_particles(const virga_fluid *fluid, virga_fluid_buffe
  *
  * or, with a scene, by virga_scene_frame.exchange. A particle has spacing_m^3 of water, rounded to whole nanolitres.
  * All water is counted to the nanolitre: taken_nl of the ground's statistics is taken_nl here and what is in the first
- * list; given_nl here is given_nl and given_off_ground_nl there and what is in the second. A full solver leaves the
+ * list; given_nl here is given_nl and given_off_ground_nl there and what is in the second. With spray, the water of the
+ * particles is taken_nl less given_nl, sprayed_nl and rest_nl. A full solver leaves the
  * water in the cells. Use a spacing that divides the side of a cell: with others the particles of a cell stand wider,
  * and the water is a little higher at first. The floor of the box is best at the height of the ground. Costs two passes
  * of one workgroup over the particles (about 0.2 ms for 10,000 of them on software Vulkan). */
@@ -324,6 +335,12 @@ typedef struct virga_fluid_stats {
     /* Water of a particle; all that came from the ground, and all that went to it (nl). */
     uint32_t particle_nl;
     uint64_t taken_nl, given_nl;
+
+    /* All that left as droplets which fly on their own; and what their particles had more than the droplets got, or
+     * less: it goes to the ground with the next particle (nl). That is only what floats round, if the particles of the
+     * water have the volume of these. */
+    uint64_t sprayed_nl;
+    int64_t rest_nl;
 } virga_fluid_stats;
 
 VIRGA_API void virga_fluid_stats_get(virga_fluid *fluid, virga_fluid_stats *stats);
