@@ -74,6 +74,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, paper_shift, 0, 4, 0.35, .look = true),
     SETTING(FLOAT, textured_px, 0, 64, 0, .look = true),
     SETTING(U32, textures_per_frame, 0, 1024, 0, .look = true),
+    SETTING(FLOAT, veil, 0, 1, 0, .look = true),
     SETTING(FLOAT, thickness_mm, 0, 50, 5, .look = true),
     SETTING(FLOAT, tint[0], 0, 1, 1, .look = true),
     SETTING(FLOAT, tint[1], 0, 1, 1, .look = true),
@@ -147,7 +148,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
     counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
-    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (3 + VIRGA_GLASS_QUAD_WORDS) * (VkDeviceSize)def->max_drops;
+    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (3 + VIRGA_GLASS_QUAD_WORDS) * ((VkDeviceSize)def->max_drops + 1);
     counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;
     counts[COUNT_MAP_COLUMNS] = sizes.max_columns;
     counts[COUNT_MAP_ROWS] = sizes.max_rows;

@@ -105,6 +105,7 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
     look->texture_columns = glass->def.texture_columns;
     look->texture_rows = glass->def.texture_rows;
     look->texture_texels = glass->def.texture_texels;
+    look->veil = s->veil;
     look->hemispheres = s->texture_shape == VIRGA_GLASS_TEXTURE_HEMISPHERE;
     look->quads_offset = look->bounds_offset + 2 * look->max_tiles;
     if (glass_is_front(s))
@@ -135,7 +136,10 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
                        (texels + VIRGA_GLASS_TEXTURE_GROUP - 1) / VIRGA_GLASS_TEXTURE_GROUP);
         glass->base.journal.doing |= GLASS_DID_TEXTURES;
     }
-    const virga_pipeline *quads = glass_is_front(&glass->settings) ? picture->front_quads : picture->drop_quads;
-    virga_dispatch_indirect(context, cmd, quads, glass->state->buffer, offsetof(virga_glass_state_gpu, shown_groups));
+    if (glass_is_front(&glass->settings)) /* also without a drop: the veil */
+        virga_dispatch(context, cmd, picture->front_quads, glass->def.max_drops / VIRGA_GLASS_GROUP);
+    else
+        virga_dispatch_indirect(context, cmd, picture->drop_quads, glass->state->buffer,
+                                offsetof(virga_glass_state_gpu, shown_groups));
     virga_pass_end(context, cmd, scope);
 }

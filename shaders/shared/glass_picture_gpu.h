@@ -90,7 +90,9 @@ struct virga_glass_picture_gpu {
     uint hemispheres;     /* 1: drops are hemispheres (Sato et al.); 0: caps, as the height map has them */
     uint first_texture;   /* made anew for this view: the first of them */
     uint textures;        /* and their number, in turn */
-    uint quads_offset;    /* start of the quads' vertex indices; the quads follow */
+    /* start of the quads' vertex indices, three for each drop and three more; the quads follow */
+    uint quads_offset;
+    float veil; /* (front) share of the opening that mist covers */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y

@@ -137,6 +137,29 @@ static void an_even_scene_stays_even(void **state)
     shot_close(&s);
 }
 
+/* Over all of the picture by the same share, with and without drops, and it takes as much light as it gives. */
+static void a_veil_covers_its_share_evenly(void **state)
+{
+    (void)state;
+    shot s;
+    open_front(&s);
+    surround(&s);
+    s.settings.advancing_deg = 20;
+    s.settings.receding_deg = 15;
+    s.settings.veil = 0.25f;
+    shot_forget(&s);
+    for (int drops = 0; drops < 2; drops++) {
+        const float *pixels = draw_front(&s, (opening){0.004, 0});
+        for (int p = 0; p < WIDTH * HEIGHT; p++) {
+            const double alpha = (double)pixels[4 * p + 3], light = (double)pixels[4 * p];
+            if (!(drops ? alpha >= 0.2499 : fabs(alpha - 0.25) < 1e-4) || !(fabs(light - alpha) < 1e-3))
+                fail_msg("pixel %d: %g of %g", p, light, alpha);
+        }
+        shot_drop(&s, 0.0493, 0.0311, shot_water(&s, 0.002));
+    }
+    shot_close(&s);
+}
+
 static void without_drops_nothing_is_drawn(void **state)
 {
     (void)state;
@@ -219,9 +242,8 @@ static void it_is_the_mean_of_pinholes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_share_is_that_of_two_discs),
-        cmocka_unit_test(an_even_scene_stays_even),
-        cmocka_unit_test(without_drops_nothing_is_drawn),
+        cmocka_unit_test(the_share_is_that_of_two_discs), cmocka_unit_test(an_even_scene_stays_even),
+        cmocka_unit_test(a_veil_covers_its_share_evenly), cmocka_unit_test(without_drops_nothing_is_drawn),
         cmocka_unit_test(it_is_the_mean_of_pinholes),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

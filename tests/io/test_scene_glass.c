@@ -208,7 +208,7 @@ static const struct {
     {PANE("shape: round"), "s.yaml:5: glass.0.shape: expected one of flat, windshield, mesh, got 'round'"},
     {PANE("kind: cleen"),
      "glass.0.kind: expected one of paper, clean, dirty, coated, metal, leaf, got 'cleen', did you mean 'clean'?"},
-    {PANE("style: film"), "glass.0.style: expected one of paper, physical, textures, got 'film'"},
+    {PANE("style: film"), "glass.0.style: expected one of paper, physical, textures, front, got 'film'"},
     {PANE("density: gauss"), "glass.0.density: expected one of goto, blinn, murakami, wyvill, nishimura, got 'gauss'"},
     {PANE("follow: car"), "glass.0.follow: expected one of world, camera, got 'car'"},
     {PANE("width_m: 0"), "glass.0.width_m: expected a number from 0.01 to 10, got '0'"},

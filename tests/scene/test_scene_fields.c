@@ -271,10 +271,11 @@ static const field glass_fields[] = {
     FIELD(virga_glass_settings, wipers[0].drive, REFUSED, 0, 3),
     FIELD(virga_glass_settings, density, REFUSED, 0, 4),
     FIELD(virga_glass_settings, blend, REFUSED, 0, 1),
-    FIELD(virga_glass_settings, style, REFUSED, 0, 2),
+    FIELD(virga_glass_settings, style, REFUSED, 0, 3),
     FIELD(virga_glass_settings, texture_shape, REFUSED, 0, 1),
     F(textured_px, 0, 64),
     F(textures_per_frame, 0, 1024),
+    F(veil, 0, 1),
     LIGHTS(virga_glass_settings),
 };
 

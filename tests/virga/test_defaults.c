@@ -194,6 +194,8 @@ static void panes(void **state)
     SAME(textured_px);
     SAME(texture_shape);
     SAME(textures_per_frame);
+    SAME(still_behind);
+    SAME(veil);
     SAME(paper_shift);
     SAME(thickness_mm);
     SAME(tint[0]);

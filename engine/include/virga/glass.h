@@ -262,10 +262,10 @@ typedef enum virga_glass_style {
      * to its axis. Drops so near are far out of focus: each becomes a disc with a soft rim, about as large as the
      * opening seen from the pane, in which a share of the light is what the drop refracts. view.aperture_m and focus_m
      * say how large and how soft; with an aperture of 0 drops are sharp. The picture behind (view.color) should
-     * already be out of focus itself, as virga_lens makes it. Drops are drawn over everything, whatever the depth; the
-     * opening is round; film and mist are not drawn. There is no height map, so create such a pane with a small
-     * max_texels. Cost: 32 look-ups for each pixel of each drop's disc. virga_glass_draw_refraction draws nothing, as
-     * no pixel shows one other. */
+     * already be out of focus itself, as virga_lens makes it. Drops are drawn over everything, whatever the depth. The
+     * opening is round. Film is not drawn, and mist only as veil. There is no height map, so create such a pane with a
+     * small max_texels. Cost: 32 look-ups for each pixel of each drop's disc. virga_glass_draw_refraction draws
+     * nothing, as no pixel shows one other. */
     VIRGA_GLASS_STYLE_FRONT = 3,
 } virga_glass_style;
 
@@ -430,6 +430,12 @@ typedef struct virga_glass_settings {
     /* What is behind the pane does not change while the camera, the pane and the settings stay as they are, as with a
      * photo. Textures are then kept. Default false. */
     bool still_behind;
+
+    /* [0; 1] (front) share of the lens's opening that mist and fine droplets cover: veiling glare of wet glass. Each
+     * droplet is a lens of the pane's contact angle, so that share of the light of every pixel comes from a wide cone
+     * around it, evenly: blacks get lighter near lamps, and lamps lose as much. Costs 32 look-ups a pixel of the
+     * picture. 0: none. Default 0. */
+    float veil;
 
     /* [0; 50] thickness of the glass (physical). Default 5. */
     float thickness_mm;

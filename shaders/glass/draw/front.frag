@@ -8,6 +8,10 @@
 // as much of the plate as the drop bends the light of its area over, so the plate's smaller copies do the rest of the
 // mean. All weights are divided by their sum, so an even scene stays even.
 //
+// The veil is mist on the glass: droplets of the same contact angle all over the opening, so every pixel has the same
+// share of it. A droplet bends light by its shape and not by its size, so its light is that of a drop which the whole
+// opening sees: the mean over a cone with a half-angle of 2 tan(contact angle / 2) (n - 1).
+//
 // Where drops overlap on the picture, one covers the others' light too. Drops that lie beside each other on the pane
 // cover the sum of their shares instead: where all of them cover C, up to C^2 / 2 of the light is between the two.
 #version 460
@@ -26,7 +30,7 @@
 #include "gpu/encode.glsl"
 
 layout(location = 0) in vec2 local; // as in drop.vert: the pixel's ray, in radii from the drop's middle
-layout(location = 2) flat in vec4 amount; // x: radius of the opening, in radii of the drop
+layout(location = 2) flat in vec4 amount; // x: radius of the opening, in radii of the drop; y: share of the veil, or 0
 layout(location = 3) flat in uint quad;
 layout(location = 0) out vec4 radiance;
 
@@ -67,7 +71,7 @@ vec3 light_through(float opening)
 
 void main()
 {
-    const float share = opening_share(length(local), amount.x);
+    const float share = amount.y > 0.0 ? amount.y : opening_share(length(local), amount.x);
     if (share <= 0.0)
         discard;
     stand_on(vec2(quad_float(quad, 12u), quad_float(quad, 13u)));

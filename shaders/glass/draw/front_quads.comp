@@ -18,6 +18,7 @@ layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; }
 layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
+#define WHOLE     1e4   // radius of an opening that is all behind a drop, in radii of the drop
 #define NEAREST_M 0.001 // from the opening; what is nearer is not drawn
 
 // k R of front_overlap.glsl. At least half a pixel, so that a drop before a pinhole has a rim of a pixel.
@@ -29,22 +30,46 @@ float opening_m(float away_m)
 
 // In clip space at a view depth of 1, in the middle of the depth range: so near a drop is before everything, also
 // where the near plane is behind it.
-void write_quad(uint at, vec2 middle, float radius_m, vec4 clip)
+void write_quad(uint i, vec2 at, vec2 scale, vec2 middle, float radius_m, float size, float opening, float veil)
 {
-    const float scale = radius_m / clip.w, opening = opening_m(clip.w) / radius_m;
+    const uint first = look.quads_offset + 3u * (look.pane.max_drops + 1u) + VIRGA_GLASS_QUAD_WORDS * i;
     const float words[VIRGA_GLASS_QUAD_WORDS] =
-        float[](clip.x / clip.w, clip.y / clip.w, 0.5, 1.0, scale / length(to_vec(view.right)), 0.0, 0.0, 0.0, 0.0,
-                scale / length(to_vec(view.up)), 0.0, 0.0, middle.x, middle.y, radius_m, 1.0 + opening, opening, 0.0,
-                0.0, 0.0);
-    for (uint i = 0u; i < VIRGA_GLASS_QUAD_WORDS; i++)
-        corners[at + i] = floatBitsToUint(words[i]);
+        float[](at.x, at.y, 0.5, 1.0, scale.x, 0.0, 0.0, 0.0, 0.0, scale.y, 0.0, 0.0, middle.x, middle.y, radius_m,
+                size, opening, veil, 0.0, 0.0);
+    for (uint word = 0u; word < VIRGA_GLASS_QUAD_WORDS; word++)
+        corners[first + word] = floatBitsToUint(words[word]);
+}
+
+void write_drop(uint i, vec2 middle, float radius_m, vec4 clip)
+{
+    const float opening = opening_m(clip.w) / radius_m;
+    const vec2 scale = radius_m / clip.w / vec2(length(to_vec(view.right)), length(to_vec(view.up)));
+    write_quad(i, clip.xy / clip.w, scale, middle, radius_m, 1.0 + opening, opening, 0.0);
+}
+
+void write_indices(uint i, bool shown)
+{
+    for (uint corner = 0u; corner < 3u; corner++)
+        corners[look.quads_offset + 3u * i + corner] = shown ? 3u * i + corner : 0u;
+}
+
+// After all drops: over the whole picture, as if a drop at the pane's middle were before all of the opening. The
+// triangle around a circle of radius 1.5 holds the square from -1 to 1.
+void write_veil()
+{
+    const vec2 middle = 0.5 * vec2(look.pane.width_m, look.pane.height_m);
+    write_indices(state.shown, true);
+    write_quad(state.shown, vec2(0.0), vec2(1.0), middle, 1.0, 1.5, WHOLE, look.veil);
 }
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x, slot = listed[min(i, look.pane.max_drops - 1u)];
+    const uint quads = state.shown + (look.veil > 0.0 ? 1u : 0u);
     if (i == 0u)
-        work.quads = virga_glass_corners_gpu(3u * state.shown, 1u, look.quads_offset, 0, 0u);
+        work.quads = virga_glass_corners_gpu(3u * quads, 1u, look.quads_offset, 0, 0u);
+    if (i == 0u && look.veil > 0.0)
+        write_veil();
     if (i >= state.shown)
         return;
     const virga_glass_drop_gpu drop = drops[slot];
@@ -54,8 +79,7 @@ void main()
                             vec2(drop.position[0], drop.position[1]), look.share);
     const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);
     const bool shown = kind != VIRGA_GLASS_FREE && radius_m > 0.0 && clip.w > NEAREST_M;
-    for (uint corner = 0u; corner < 3u; corner++)
-        corners[look.quads_offset + 3u * i + corner] = shown ? 3u * i + corner : 0u;
+    write_indices(i, shown);
     if (shown)
-        write_quad(look.quads_offset + 3u * look.pane.max_drops + VIRGA_GLASS_QUAD_WORDS * i, middle, radius_m, clip);
+        write_drop(i, middle, radius_m, clip);
 }

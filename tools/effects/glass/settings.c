@@ -89,6 +89,8 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
     to->textured_px = (float)from->textured_px;
     to->texture_shape = (virga_glass_texture_shape)from->texture_shape;
     to->textures_per_frame = from->textures_per_frame;
+    to->still_behind = from->still_behind;
+    to->veil = (float)from->veil;
     to->thickness_mm = (float)from->thickness_mm;
     for (int c = 0; c < 3; c++)
         to->tint[c] = (float)from->tint[c];
