@@ -114,7 +114,7 @@ static VkDeviceSize grid_cells(const virga_glass_def *def)
 enum {
     COUNT_CELLS = 1,
     COUNT_SLOTS,
-    COUNT_PICK_BYTES,
+    COUNT_SELECTION_BYTES,
     COUNT_FILM_BLOCKS,
     COUNT_SEEDS,
     COUNT_GRID,
@@ -166,7 +166,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const VkDeviceSize columns = glass_cells_along(def->width_m, def->cell_m);
     counts[COUNT_CELLS] = columns * glass_cells_along(def->height_m, def->cell_m);
     counts[COUNT_SLOTS] = def->max_drops;
-    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES((VkDeviceSize)def->max_drops);
+    counts[COUNT_SELECTION_BYTES] = VIRGA_SELECTION_BYTES((VkDeviceSize)def->max_drops);
     counts[COUNT_FILM_BLOCKS] = glass_film_blocks(def);
     counts[COUNT_SEEDS] =
         GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
@@ -187,7 +187,7 @@ static const virga_effect_buffer buffers[] = {
     /* The state of the pane. */
     {"glass.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_state_gpu), .first = FILL},
     {"glass.drops", AT(drops), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
-    {"glass.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"glass.selection", AT(selection), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_SELECTION_BYTES},
     {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
     {"glass.active", AT(active), VIRGA_USE_STORAGE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
     {"glass.claims", AT(claims), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
@@ -251,7 +251,7 @@ static const virga_binding_kind bindings[] = {
     RING(COMPUTE, tick_ring, virga_glass_tick_gpu), /* 0 */
     BUFFER(state),                                  /* 1 */
     BUFFER(drops),                                  /* 2 */
-    BUFFER(picks),                                  /* 3 */
+    BUFFER(selection),                              /* 3 */
     BUFFER(list),                                   /* 4 */
     BUFFER(claims),                                 /* 5 */
     BUFFER(occupants),                              /* 6 */

@@ -55,7 +55,7 @@ struct virga_glass {
     bool host_known;
 
     /* State of the pane. */
-    virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
+    virga_buffer *state, *drops, *selection, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
         *active, *film_blocks;
     /* The surface of the pane: cells (affinity, bump, mask) and the nodes of its shape. */
     virga_buffer *surface, *nodes;

@@ -104,7 +104,7 @@ static void plan_levels(const virga_rain_def *def, uint32_t *levels, uint32_t *g
 
 enum {
     COUNT_SLOTS = 1,
-    COUNT_PICK_BYTES,
+    COUNT_SELECTION_BYTES,
     COUNT_IMPACTS,
     COUNT_STREAKS,
     COUNT_ORDER,
@@ -125,7 +125,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
     const VkDeviceSize streak_groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
     counts[COUNT_SLOTS] = slots;
-    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES(slots);
+    counts[COUNT_SELECTION_BYTES] = VIRGA_SELECTION_BYTES(slots);
     counts[COUNT_IMPACTS] = def->max_impacts;
     counts[COUNT_STREAKS] = def->max_streaks;
     /* Six indices per streak, and one count per bucket and workgroup, see shaders/rain/order.glsl. */
@@ -143,7 +143,7 @@ static const virga_effect_buffer buffers[] = {
     {"rain.drops", AT(drop_buffer), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_drop_gpu), COUNT_SLOTS},
     {"rain.impacts", AT(impact_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_impacts_gpu), sizeof(virga_impact_gpu),
      COUNT_IMPACTS, FILL},
-    {"rain.picks", AT(pick_buffer), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"rain.selection", AT(selection_buffer), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_SELECTION_BYTES},
     {"rain.list", AT(list_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_list_gpu), sizeof(uint32_t), COUNT_SLOTS},
     {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS,
      .per_view = true},

@@ -25,7 +25,7 @@ const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     TEXEL_BUFFER(slot_buffer),                           /* 2 slots as texels */
     BUFFER(drop_buffer),                                 /* 3 */
     BUFFER(impact_buffer),                               /* 4 */
-    BUFFER(pick_buffer),                                 /* 5 */
+    BUFFER(selection_buffer),                            /* 5 */
     BUFFER(prepared_buffer),                             /* 6 */
     BUFFER_IN(COMPUTE | VERTEX, streak_buffer),          /* 7 */
     [BIND_SWAYS] = BUFFER(sway_buffer),                  /* 8 */

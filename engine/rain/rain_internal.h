@@ -152,7 +152,7 @@ struct virga_rain {
     bool stepped, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
-    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *hit_buffer,
+    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *selection_buffer, *list_buffer, *hit_buffer,
         *hit_offset_buffer, *sway_buffer, *point_buffer, *total_buffer;
     VIRGA_PER_VIEW(virga_buffer, streak_buffer);
     VIRGA_PER_VIEW(virga_buffer, prepared_buffer);

@@ -111,7 +111,7 @@ enum {
     COUNT_SPLASHES,
     COUNT_SPAWNS,
     COUNT_RETURNS,
-    COUNT_PICK_BYTES,
+    COUNT_SELECTION_BYTES,
     COUNT_LISTED,
     COUNT_INDICES,
     COUNT_TICKS,
@@ -128,8 +128,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SPAWNS] = def->max_spawns;
     counts[COUNT_RETURNS] = def->max_returned_droplets;
     /* Three lists of droplets (lines, quads, piles) and two of splashes (sprites, sheets). */
-    counts[COUNT_PICK_BYTES] =
-        VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
+    counts[COUNT_SELECTION_BYTES] =
+        VIRGA_SELECTION_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
     counts[COUNT_LISTED] = (VkDeviceSize)splash_max_sprites(def) + splash_max_crowns(def);
     counts[COUNT_INDICES] = index_count(def);
     counts[COUNT_TICKS] = def->max_ticks_per_step + 2; /* one more for a move of the anchor, and one for spray */
@@ -152,7 +152,7 @@ static const virga_effect_buffer buffers[] = {
     {"splash.returns", AT(returned_droplets), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
      .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
     {"splash.handed", AT(handed), VIRGA_USE_INDIRECT, DEVICE, .entry = 1, .count = COUNT_HANDED_BYTES, .first = FILL},
-    {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
+    {"splash.selection", AT(selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SELECTION_BYTES},
     {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_LISTED, .per_view = true},
     {"splash.sprites", AT(sprites), VIRGA_USE_TEXELS, DEVICE, .entry = SPLASH_SPRITE_BYTES, .count = COUNT_DROPLETS,

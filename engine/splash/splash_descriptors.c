@@ -31,7 +31,7 @@ const virga_binding_kind splash_bindings[SPLASH_BINDINGS] = {
     BUFFER(marks),                                              /* 7 */
     BUFFER(spawn_offsets),                                      /* 8 */
     BUFFER(returned_droplets),                                  /* 9 */
-    BUFFER_IN(VIRGA_ALL_STAGES, picks),                         /* 10 */
+    BUFFER_IN(VIRGA_ALL_STAGES, selection),                     /* 10 */
     BUFFER_IN(VIRGA_ALL_STAGES, lists),                         /* 11 */
     [BIND_KEPT] = {STORAGE, COMPUTE},                           /* 12 droplets that stay after the tick */
     BUFFER_IN(COMPUTE | VERTEX, sprites),                       /* 13 */

@@ -95,7 +95,7 @@ struct virga_splash {
 
     virga_buffer *droplet_buffers[2];
     uint32_t current; /* index of the one with the newest droplets */
-    virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *index_buffer;
+    virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *selection, *index_buffer;
     virga_buffer *handed; /* NULL without def.max_handed */
     VIRGA_PER_VIEW(virga_buffer, lists);
     VIRGA_PER_VIEW(virga_buffer, sprites);

@@ -100,23 +100,23 @@ enum {
     COUNT_PARTICLES = 1,
     COUNT_CELLS,
     COUNT_SCAN_GROUPS,
-    COUNT_PICK_BYTES,
+    COUNT_SELECTION_BYTES,
     COUNT_BLOCKS,
     COUNT_POINTS,
     COUNT_SURFELS,
     COUNT_SPRAY,
-    COUNT_SPRAY_PICK_BYTES,
+    COUNT_SPRAY_SELECTION_BYTES,
     COUNT_TABLE,
     COUNT_DROPLETS,
     COUNT_FOAM,
-    COUNT_FOAM_PICK_BYTES,
+    COUNT_FOAM_SELECTION_BYTES,
     COUNT_FOAM_ENTRIES,
     COUNT_FOAM_SOURCES,
     COUNT_FOAM_SOURCE_ENTRIES,
     COUNT_FOAM_SPLATS,
     COUNT_DRAWN,
     COUNT_DRAWN_ENTRIES,
-    COUNT_SPLAT_PICK_BYTES,
+    COUNT_SPLAT_SELECTION_BYTES,
     COUNT_SPLATS,
     COUNT_PYRAMID,
     COUNT_PYRAMID_COLUMNS,
@@ -143,7 +143,8 @@ static void count_foam(const virga_water_def *def, VkDeviceSize counts[VIRGA_EFF
     counts[COUNT_FOAM_SOURCES] = sources;
     counts[COUNT_FOAM_SOURCE_ENTRIES] = list_entries(sources);
     /* For both lists, one after the other. */
-    counts[COUNT_FOAM_PICK_BYTES] = VIRGA_PICK_BYTES(whole_groups(sources > def->max_foam ? sources : def->max_foam));
+    counts[COUNT_FOAM_SELECTION_BYTES] =
+        VIRGA_SELECTION_BYTES(whole_groups(sources > def->max_foam ? sources : def->max_foam));
     counts[COUNT_FOAM_SPLATS] = def->max_width ? def->max_foam : 0;
 }
 
@@ -153,19 +154,19 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_PARTICLES] = def->max_particles;
     counts[COUNT_CELLS] = def->max_cells;
     counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_GRID_SCAN_CELLS;
-    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES((VkDeviceSize)def->max_cells);
+    counts[COUNT_SELECTION_BYTES] = VIRGA_SELECTION_BYTES((VkDeviceSize)def->max_cells);
     counts[COUNT_BLOCKS] = def->max_blocks;
     counts[COUNT_POINTS] = (VkDeviceSize)def->max_blocks * VIRGA_WATER_POINTS;
     counts[COUNT_SURFELS] = def->max_surfels;
     counts[COUNT_SPRAY] = def->max_spray;
-    counts[COUNT_SPRAY_PICK_BYTES] = VIRGA_PICK_BYTES(whole_groups(def->max_particles));
+    counts[COUNT_SPRAY_SELECTION_BYTES] = VIRGA_SELECTION_BYTES(whole_groups(def->max_particles));
     counts[COUNT_TABLE] = water_table_entries(def);
     counts[COUNT_DROPLETS] = def->max_droplets;
     count_foam(def, counts);
     counts[COUNT_DRAWN] = def->max_width > 0;
     counts[COUNT_SPLATS] = def->max_width ? def->max_surfels : 0;
     counts[COUNT_DRAWN_ENTRIES] = def->max_width ? list_entries(def->max_surfels) : 0;
-    counts[COUNT_SPLAT_PICK_BYTES] = def->max_width ? VIRGA_PICK_BYTES(whole_groups(def->max_surfels)) : 0;
+    counts[COUNT_SPLAT_SELECTION_BYTES] = def->max_width ? VIRGA_SELECTION_BYTES(whole_groups(def->max_surfels)) : 0;
     counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
     counts[COUNT_PYRAMID_COLUMNS] = water_pyramid_extent(def).width;
     counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
@@ -177,7 +178,7 @@ static const virga_effect_buffer buffers[] = {
     {"water.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_water_state_gpu),
      .first = VIRGA_FIRST_FILL},
     {"water.cell_marks", AT(cell_marks), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_CELLS},
-    {"water.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
+    {"water.selection", AT(selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SELECTION_BYTES},
     {"water.block_insides", AT(block_insides), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_BLOCKS},
     {"water.blocks", AT(blocks), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_BLOCKS},
@@ -188,7 +189,8 @@ static const virga_effect_buffer buffers[] = {
     {"water.shifts", AT(shifts), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"water.shapes", AT(shapes), VIRGA_USE_TEXELS, DEVICE, .entry = 2 * 16, .count = COUNT_PARTICLES},
     {"water.centers", AT(centers), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
-    {"water.spray_picks", AT(spray.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SPRAY_PICK_BYTES},
+    {"water.spray_selection", AT(spray.selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1,
+     .count = COUNT_SPRAY_SELECTION_BYTES},
     {"water.spray_list", AT(spray.list), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_SPRAY},
     {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_leavers_gpu),
@@ -201,14 +203,16 @@ static const virga_effect_buffer buffers[] = {
      .count = COUNT_DROPLETS, .first = VIRGA_FIRST_FILL},
     {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
      .first = VIRGA_FIRST_FILL},
-    {"water.splat_picks", AT(picture.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SPLAT_PICK_BYTES},
+    {"water.splat_selection", AT(picture.selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1,
+     .count = COUNT_SPLAT_SELECTION_BYTES},
     {"water.splat_list", AT(picture.list), VIRGA_USE_INDIRECT, DEVICE, .entry = 4, .count = COUNT_DRAWN_ENTRIES},
     {"water.splats", AT(picture.splats), VIRGA_USE_TEXELS, DEVICE, .entry = VIRGA_WATER_SPLAT_TEXELS * 16,
      .count = COUNT_SPLATS},
     {"water.prepared", AT(picture.prepared), VIRGA_USE_INDIRECT, DEVICE, .entry = sizeof(virga_water_prepared_gpu),
      .count = COUNT_DRAWN},
     {"water.pyramid", AT(picture.pyramid), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PYRAMID},
-    {"water.foam_picks", AT(foam.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_FOAM_PICK_BYTES},
+    {"water.foam_selection", AT(foam.selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1,
+     .count = COUNT_FOAM_SELECTION_BYTES},
     {"water.foam_slots", AT(foam.slots), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_FOAM_ENTRIES},
     {"water.foam", AT(foam.particles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_foam_gpu), .count = COUNT_FOAM,
      .first = VIRGA_FIRST_FILL},
@@ -254,7 +258,7 @@ static const virga_binding_kind kernel_bindings[] = {
     BUFFER(cell_marks),          /* 7 */
     BUFFER(densities),           /* 8 */
     BUFFER(shifts),              /* 9 */
-    BUFFER(picks),               /* 10 */
+    BUFFER(selection),           /* 10 */
     BUFFER(shapes),              /* 11 */
     BUFFER(centers),             /* 12 */
     TEXEL_BUFFER(grid.sorted),   /* 13 */
@@ -266,7 +270,7 @@ static const virga_binding_kind bindings[] = {
     BUFFER(centers),                      /* 5 */
     BUFFER(shapes),                       /* 6 */
     BUFFER(cell_marks),                   /* 7 */
-    BUFFER(picks),                        /* 8 */
+    BUFFER(selection),                    /* 8 */
     BUFFER(block_insides),                /* 9 */
     BUFFER(blocks),                       /* 10 */
     BUFFER(block_of),                     /* 11 */
@@ -283,7 +287,7 @@ static const virga_binding_kind spray_bindings[] = {
     STEP_BINDINGS,                            /* 0 to 4 */
     BUFFER(grid.sorted),                      /* 5 */
     BUFFER(grid.sorted_indices),              /* 6 */
-    BUFFER(spray.picks),                      /* 7 */
+    BUFFER(spray.selection),                  /* 7 */
     BUFFER(densities),                        /* 8 */
     BUFFER(spray.list),                       /* 9 */
     BUFFER(spray.splashes),                   /* 10 */
@@ -300,7 +304,7 @@ static const virga_binding_kind foam_bindings[] = {
     STEP_BINDINGS,                        /* 0 to 4 */
     BUFFER(grid.sorted),                  /* 5 */
     BUFFER(grid.sorted_indices),          /* 6 */
-    BUFFER(foam.picks),                   /* 7 */
+    BUFFER(foam.selection),               /* 7 */
     BUFFER(densities),                    /* 8 */
     BUFFER(foam.slots),                   /* 9 */
     BUFFER(foam.particles),               /* 10 */

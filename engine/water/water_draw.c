@@ -27,7 +27,7 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     BUFFER(state),                                                 /* 1 */
     BUFFER(surfels),                                               /* 2 */
     TEXEL_BUFFER(surfels),                                         /* 3 */
-    BUFFER(picture.picks),                                         /* 4 */
+    BUFFER(picture.selection),                                     /* 4 */
     BUFFER(picture.list),                                          /* 5 */
     BUFFER_IN(COMPUTE | VERTEX, picture.splats),                   /* 6 */
     TEXEL_BUFFER_IN(VERTEX, picture.splats),                       /* 7 */

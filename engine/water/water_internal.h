@@ -54,7 +54,7 @@ typedef struct water_view_block {
 
 /* What a view is drawn from. Without max_width all of it is empty. */
 typedef struct water_picture {
-    virga_buffer *picks, *list, *splats, *prepared, *pyramid;
+    virga_buffer *selection, *list, *splats, *prepared, *pyramid;
     VIRGA_PER_VIEW(virga_offscreen, sums); /* sums of splats, sums of their motion, depth */
     VIRGA_PER_VIEW(virga_image_2d, thickness);
     VIRGA_PER_VIEW(virga_buffer, foam_splats);
@@ -71,7 +71,7 @@ typedef struct water_picture {
 
 /* The spray. */
 typedef struct water_spray {
-    virga_buffer *picks, *list, *splashes, *pieces, *table, *starts, *droplets;
+    virga_buffer *selection, *list, *splashes, *pieces, *table, *starts, *droplets;
     virga_bindings *bindings;
     virga_pipeline *begin, *mark, *scan, *compact, *break_up, *fly, *starts_scan;
     virga_pipeline *write, *write_pieces, *range, *surfel;
@@ -79,7 +79,7 @@ typedef struct water_spray {
 
 /* The foam: a pool of particles. Without max_foam all of it is empty. */
 typedef struct water_foam {
-    virga_buffer *picks, *slots, *particles, *normals, *emissions, *sources;
+    virga_buffer *selection, *slots, *particles, *normals, *emissions, *sources;
     virga_bindings *bindings;
     virga_pipeline *move, *scan, *list_slots, *normal, *potential, *source_scan, *source_list, *starts, *make;
 } water_foam;
@@ -92,8 +92,8 @@ struct virga_water {
 
     particle_grid grid;
     water_picture picture;
-    virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
-        *shifts, *shapes, *centers, *surfels;
+    virga_buffer *state, *cell_marks, *selection, *block_insides, *blocks, *block_of, *fields, *block_starts,
+        *densities, *shifts, *shapes, *centers, *surfels;
     water_spray spray;
     /* Of the newest step that was no sub-frame. */
     bool spray_goes_on;        /* it had spray */

@@ -1,4 +1,4 @@
-// compact_mark.glsl - ordered compaction, first pass: picks slots. See compact_buffers.glsl.
+// compact_mark.glsl - ordered compaction, first pass: selects slots. See compact_buffers.glsl.
 #include "gpu/compact_buffers.glsl"
 
 #ifndef COMPACT_SETS
@@ -8,9 +8,9 @@
 
 shared uint group_bits[COMPACT_SETS * SET_WORDS];
 
-// Picks the invocation's slot in each set as the kind given. Set i has groups[i] workgroups of slots, and first[i] is
+// Selects the invocation's slot in each set as the kind given. Set i has groups[i] workgroups of slots, and first[i] is
 // the first of them among the workgroups of all slots. Has barriers: call it from all invocations of a workgroup.
-void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[COMPACT_SETS])
+void mark_selected_sets(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[COMPACT_SETS])
 {
     const uint lane = gl_LocalInvocationIndex;
     if (lane < COMPACT_SETS * SET_WORDS)
@@ -18,7 +18,7 @@ void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[
     barrier();
     for (uint i = 0u; i < COMPACT_SETS; i++) {
         const uint word = i * SET_WORDS + (kinds[i] - FIRST_KIND) * GROUP_WORDS + (lane >> 5);
-        if (kinds[i] != NOT_PICKED)
+        if (kinds[i] != NOT_SELECTED)
             atomicOr(group_bits[word], 1u << (lane & 31u));
     }
     barrier();
@@ -26,10 +26,10 @@ void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[
         const uint set = lane / GROUP_WORDS, word = lane % GROUP_WORDS, bits = set * SET_WORDS + word;
         const uvec2 both = uvec2(group_bits[bits], group_bits[bits + GROUP_WORDS]);
         if (gl_WorkGroupID.x < groups[set])
-            picks[(first[set] + gl_WorkGroupID.x) * GROUP_WORDS + word] = uvec4(both, 0u, 0u);
+            selection[(first[set] + gl_WorkGroupID.x) * GROUP_WORDS + word] = uvec4(both, 0u, 0u);
     }
 }
 
 #if COMPACT_SETS == 1
-void mark_pick(uint kind) { mark_picks(uint[1](kind), uint[1](0u), uint[1](gl_NumWorkGroups.x)); }
+void mark_selected(uint kind) { mark_selected_sets(uint[1](kind), uint[1](0u), uint[1](gl_NumWorkGroups.x)); }
 #endif

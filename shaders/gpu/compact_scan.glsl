@@ -1,4 +1,4 @@
-// compact_scan.glsl - ordered compaction, second pass: prefix sum of the picks. See compact_buffers.glsl. One
+// compact_scan.glsl - ordered compaction, second pass: prefix sum of the selection. See compact_buffers.glsl. One
 // workgroup; each invocation takes a run of consecutive words.
 #include "gpu/compact_buffers.glsl"
 #include "gpu/group_scan.glsl"
@@ -11,20 +11,21 @@ uvec2 lane_words(uint first, uint count)
     return first + uvec2(begin, min(begin + run, count));
 }
 
-// Computes the list index of the first pick in each of `count` words from `first` on, for a list with room for
-// `capacity` entries. The second kind comes first. Returns the number of picks of each kind, to all invocations.
+// Computes the list index of the first selected slot in each of `count` words from `first` on, for a list with room for
+// `capacity` entries. The second kind comes first. Returns the number of selected slots of each kind, to all
+// invocations.
 uvec2 scan_words(uint first, uint count, uint capacity)
 {
     const uvec2 words = lane_words(first, count);
     uvec2 sum = uvec2(0u);
     for (uint i = words.x; i < words.y; i++)
-        sum += uvec2(bitCount(picks[i].xy));
+        sum += uvec2(bitCount(selection[i].xy));
     uvec2 total;
     const uvec2 before = scan_group(sum, total);
     uvec2 index = before + uvec2(min(total.y, capacity), 0u);
     for (uint i = words.x; i < words.y; i++) {
-        const uvec2 bits = picks[i].xy;
-        picks[i].zw = index;
+        const uvec2 bits = selection[i].xy;
+        selection[i].zw = index;
         index += uvec2(bitCount(bits));
     }
     return total;
@@ -40,8 +41,8 @@ virga_list_gpu list_head(uvec2 total, uint capacity)
 }
 
 #ifndef COMPACT_LISTS
-// The same for all picks of `groups` workgroups; also writes the head of the list.
-uvec2 scan_picks(uint groups, uint capacity)
+// The same for all selected slots of `groups` workgroups; also writes the head of the list.
+uvec2 scan_selection(uint groups, uint capacity)
 {
     const uvec2 total = scan_words(0u, groups * GROUP_WORDS, capacity);
     if (gl_LocalInvocationIndex == 0u) {

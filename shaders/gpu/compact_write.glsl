@@ -1,12 +1,12 @@
 // compact_write.glsl - ordered compaction, third pass: writes the list. See compact_buffers.glsl.
 #include "gpu/compact_buffers.glsl"
 
-// Writes the picks of one word. The list's entries begin at `entry`; `slot` is the slot of the word's first bit. Picks
-// beyond the list's capacity are dropped. One invocation per word: where 32 invocations read the same word, software
-// Vulkan took four times as long.
+// Writes the selection of one word. The list's entries begin at `entry`; `slot` is the slot of the word's first bit.
+// Selected beyond the list's capacity are dropped. One invocation per word: where 32 invocations read the same word,
+// software Vulkan took four times as long.
 void write_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
 {
-    const uvec4 word = picks[word_index];
+    const uvec4 word = selection[word_index];
     uvec2 index = word.zw;
     for (uint bits = word.x | word.y; bits != 0u; bits &= bits - 1u) {
         const uint bit = findLSB(bits), second = (word.y >> bit) & 1u;
@@ -18,10 +18,10 @@ void write_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
 }
 
 #ifndef COMPACT_LISTS
-// Writes one slot into the list, if it is picked and there is room.
+// Writes one slot into the list, if it is selected and there is room.
 void write_slot(uint slot_index)
 {
-    const uvec4 word = picks[slot_index >> 5];
+    const uvec4 word = selection[slot_index >> 5];
     const uint bit = 1u << (slot_index & 31u);
     const bool second = (word.y & bit) != 0u;
     const uint bits = second ? word.y : word.x;

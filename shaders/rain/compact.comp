@@ -1,5 +1,5 @@
-// compact.comp - ordered compaction, third pass: writes the list of picked slots. Used by all lists of rain.
-// One invocation per word of 32 slots. Reads: picks. Writes: the list.
+// compact.comp - ordered compaction, third pass: writes the list of selected slots. Used by all lists of rain.
+// One invocation per word of 32 slots. Reads: selection. Writes: the list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

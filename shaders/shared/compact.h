@@ -10,19 +10,19 @@
 typedef struct virga_list_gpu virga_list_gpu;
 #endif
 
-/* Head of the list of picked slots. The slot numbers follow. */
+/* Head of the list of selected slots. The slot numbers follow. */
 struct virga_list_gpu {
     uint group_count[3]; /* workgroups of an indirect dispatch over the list */
     uint count;          /* slots in the list */
     uint second_kind;    /* slots of the second kind; they come first in the list */
     uint first;          /* free for the pass to use: index in its output of the list's first entry */
-    uint word_count;     /* number of 32-bit words of picks, one bit per slot */
+    uint word_count;     /* number of 32-bit words of the selection, one bit per slot */
     uint pad;
 };
 
 #ifndef VIRGA_GLSL
-/* size of the buffer of picks; `slots` is a multiple of the workgroup size */
-#define VIRGA_PICK_BYTES(slots) ((slots) / 32 * 16)
+/* size of the buffer of the selection; `slots` is a multiple of the workgroup size */
+#define VIRGA_SELECTION_BYTES(slots) ((slots) / 32 * 16)
 
 VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
 #undef uint

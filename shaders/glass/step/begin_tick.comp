@@ -1,8 +1,7 @@
 // begin_tick.comp - begins a tick: drops evaporate, forces accelerate those that can move, and each of them gets the
 // distance that it may move in this tick.
-// One invocation per live slot. Reads: the live list, cells, blades. Writes: drops, picks (active slots; second kind:
-// particles), state.
-// Paper: Goto et al. 2009, section 4.1.
+// One invocation per live slot. Reads: the live list, cells, blades. Writes: drops, selection (active slots; second
+// kind: particles), state. Paper: Goto et al. 2009, section 4.1.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,11 +11,11 @@
 #include "forces.glsl"
 #include "blades.glsl"
 #define COMPACT_GROUP VIRGA_GLASS_GROUP
-#define COMPACT_PICKS_BINDING 3
+#define COMPACT_SELECTION_BINDING 3
 #define COMPACT_LIST_BINDING 16
-#define list picked_list
-#define listed picked_entries
-#define List Picked
+#define list selected_list
+#define listed selected_entries
+#define List Selected
 #include "gpu/compact_mark.glsl"
 #undef list
 #undef listed
@@ -71,7 +70,7 @@ bool near_blade(uint slot)
     return false;
 }
 
-// Returns the pick: whether the drop is active in this tick.
+// Returns the selection of the slot: whether the drop is active in this tick.
 uint update_drop(uint slot, inout uint water, inout uint lost)
 {
     uint kind = drops[slot].kind;
@@ -93,7 +92,7 @@ uint update_drop(uint slot, inout uint water, inout uint lost)
         drops[slot].kind = VIRGA_GLASS_FREE;
         if (on_mesh)
             occupants[drops[slot].cell] = 0u;
-        return NOT_PICKED;
+        return NOT_SELECTED;
     }
     const bool moves = !on_mesh || ran || any(notEqual(to_vec2(drops[slot].velocity), vec2(0.0))) || !is_stuck(mass, a);
     if (moves)
@@ -101,7 +100,7 @@ uint update_drop(uint slot, inout uint water, inout uint lost)
     if (ran && to_vec2(drops[slot].velocity) == vec2(0.0))
         drops[slot].kind = kind | VIRGA_GLASS_CHANGED; // stopped
     const bool is_active = changed || (moves && drops[slot].progress_m >= tick.pane.cell_m) || near_blade(slot);
-    return !on_mesh ? SECOND_KIND : is_active ? FIRST_KIND : NOT_PICKED;
+    return !on_mesh ? SECOND_KIND : is_active ? FIRST_KIND : NOT_SELECTED;
 }
 
 void main()
@@ -109,10 +108,10 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         evaporated = max_nl = 0u;
     const uint slot = live_slot();
-    uint water = 0u, lost = 0u, pick = NOT_PICKED;
+    uint water = 0u, lost = 0u, selected = NOT_SELECTED;
     if (slot != NONE)
-        pick = update_drop(slot, water, lost);
-    mark_pick(pick); // has barriers
+        selected = update_drop(slot, water, lost);
+    mark_selected(selected); // has barriers
     if (lost != 0u)
         atomicAdd(evaporated, lost);
     atomicMax(max_nl, water);

@@ -1,5 +1,5 @@
 // live_compact.comp - live list, third pass: writes the slots.
-// One invocation per slot. Reads: picks. Writes: the live list.
+// One invocation per slot. Reads: selection. Writes: the live list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // live_scan.comp - live list, second pass: prefix sum, and the sizes of the tick's dispatches.
-// One workgroup. Reads: picks. Writes: picks, the list's head, state.
+// One workgroup. Reads: selection. Writes: selection, the list's head, state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ uint[3] groups_of(uint invocations)
 
 void main()
 {
-    const uvec2 found = scan_picks(state.live_list_groups[0], tick.pane.max_drops);
+    const uvec2 found = scan_selection(state.live_list_groups[0], tick.pane.max_drops);
     if (gl_LocalInvocationIndex != 0u)
         return;
     state.alive = found.y;

@@ -1,5 +1,5 @@
-// streak_mark.comp - streaks, mark: picks the slots whose drops a view may see. Second kind: wide streaks.
-// One invocation per slot. Reads: slots, drops. Writes: picks.
+// streak_mark.comp - streaks, mark: selects the slots whose drops a view may see. Second kind: wide streaks.
+// One invocation per slot. Reads: slots, drops. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -45,11 +45,11 @@ uint kind_of_streak(uint slot_index)
     const float body_px = diameter / (depth * view.pixel_angle);
     const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.streak_min_m &&
                          weight * streak_coverage(body_px, body_px, look.parts * path_px, blur) > MIN_COVERAGE;
-    return !visible ? NOT_PICKED : max(width_px, blur) > WIDE_PX ? SECOND_KIND : FIRST_KIND;
+    return !visible ? NOT_SELECTED : max(width_px, blur) > WIDE_PX ? SECOND_KIND : FIRST_KIND;
 }
 
 void main()
 {
     const uint slot_index = gl_GlobalInvocationID.x;
-    mark_pick(kind_of_streak(slot_index));
+    mark_selected(kind_of_streak(slot_index));
 }

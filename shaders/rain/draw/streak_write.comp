@@ -1,6 +1,6 @@
-// streak_write.comp - writes a streak for each picked slot: the drop's path while the shutter is open, cut where it
+// streak_write.comp - writes a streak for each selected slot: the drop's path while the shutter is open, cut where it
 // hits a surface, and its light.
-// One invocation per picked slot. Reads: slots, drops, occlusion maps, the view. Writes: streaks, motions.
+// One invocation per selected slot. Reads: slots, drops, occlusion maps, the view. Writes: streaks, motions.
 //
 // A drop of length D, whose middle moves by l while the shutter is open, covers a point between its ends for the
 // fraction D / l of the time (all of it if l < D). Towards the ends this falls off, over a ramp as long as the shorter

@@ -1,5 +1,5 @@
-// hit_mark.comp - hits, mark: picks the slots of which a drop may have hit the pane in the newest step.
-// One invocation per slot. Reads: slots, drops, the pane. Writes: picks.
+// hit_mark.comp - hits, mark: selects the slots of which a drop may have hit the pane in the newest step.
+// One invocation per slot. Reads: slots, drops, the pane. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,4 +10,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { mark_pick(start_traversal(slot_at(gl_GlobalInvocationID.x)).has_next ? FIRST_KIND : NOT_PICKED); }
+void main() { mark_selected(start_traversal(slot_at(gl_GlobalInvocationID.x)).has_next ? FIRST_KIND : NOT_SELECTED); }

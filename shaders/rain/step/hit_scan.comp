@@ -1,5 +1,5 @@
-// hit_scan.comp - hits, scan: prefix sum of the picks.
-// One workgroup. Reads: picks. Writes: picks, the list's head.
+// hit_scan.comp - hits, scan: prefix sum of the selection.
+// One workgroup. Reads: selection. Writes: selection, the list's head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,4 +10,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { scan_picks(pane.groups, pane.groups * VIRGA_RAIN_GROUP); }
+void main() { scan_selection(pane.groups, pane.groups * VIRGA_RAIN_GROUP); }

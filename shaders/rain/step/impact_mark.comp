@@ -1,5 +1,5 @@
-// impact_mark.comp - impacts, second list, mark: picks the entries of the first list whose drop did hit a surface.
-// One invocation per entry. Reads: the list, drops, occlusion maps. Writes: picks.
+// impact_mark.comp - impacts, second list, mark: selects the entries of the first list whose drop did hit a surface.
+// One invocation per entry. Reads: the list, drops, occlusion maps. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,5 +14,5 @@ void main()
 {
     const uint entry = gl_GlobalInvocationID.x;
     const bool met = test_drop(listed[min(entry, list.count - 1u)]).met;
-    mark_pick(entry < list.count && met ? FIRST_KIND : NOT_PICKED);
+    mark_selected(entry < list.count && met ? FIRST_KIND : NOT_SELECTED);
 }

@@ -1,5 +1,5 @@
-// impact_near_mark.comp - impacts, first list, mark: picks the slots whose drops may have hit a surface in this tick.
-// One invocation per slot. Reads: slots, drops, occlusion maps. Writes: picks.
+// impact_near_mark.comp - impacts, first list, mark: selects the slots whose drops may have hit a surface in this tick.
+// One invocation per slot. Reads: slots, drops, occlusion maps. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,4 +10,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { mark_pick(is_near_surface(gl_GlobalInvocationID.x) ? FIRST_KIND : NOT_PICKED); }
+void main() { mark_selected(is_near_surface(gl_GlobalInvocationID.x) ? FIRST_KIND : NOT_SELECTED); }

@@ -1,5 +1,5 @@
-// impact_near_scan.comp - impacts, first list, scan: prefix sum of the picks.
-// One workgroup. Reads: picks. Writes: picks, the list's head.
+// impact_near_scan.comp - impacts, first list, scan: prefix sum of the selection.
+// One workgroup. Reads: selection. Writes: selection, the list's head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,4 +9,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { scan_picks(tick.groups, tick.groups * VIRGA_RAIN_GROUP); }
+void main() { scan_selection(tick.groups, tick.groups * VIRGA_RAIN_GROUP); }

@@ -1,6 +1,6 @@
-// impact_scan.comp - impacts, second list, scan: prefix sum of the picks, behind the impacts of the step's earlier
+// impact_scan.comp - impacts, second list, scan: prefix sum of the selection, behind the impacts of the step's earlier
 // ticks; and the head.
-// One workgroup. Reads: picks. Writes: picks, the head of the impacts, the total of earlier steps.
+// One workgroup. Reads: selection. Writes: selection, the head of the impacts, the total of earlier steps.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

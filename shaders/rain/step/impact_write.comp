@@ -1,5 +1,5 @@
-// impact_write.comp - writes the impacts of the picked entries.
-// One invocation per entry of the first list. Reads: picks, drops, occlusion maps. Writes: impacts.
+// impact_write.comp - writes the impacts of the selected entries.
+// One invocation per entry of the first list. Reads: selection, drops, occlusion maps. Writes: impacts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -50,11 +50,11 @@ void add_water(uint water)
 void main()
 {
     const uint entry = gl_GlobalInvocationID.x, bit = 1u << (entry & 31u);
-    const uvec4 word = picks[entry >> 5];
+    const uvec4 word = selection[entry >> 5];
     if ((word.x & bit) == 0u)
         return;
     Hit hit = test_drop(listed[entry]);
-    hit.weight = max(hit.weight, 1e-6); // it is above 0, or it would not be picked
+    hit.weight = max(hit.weight, 1e-6); // it is above 0, or it would not be selected
     const uint index = list.first + word.z + bitCount(word.x & (bit - 1u));
     const float diameter = classes[hit.size_class].diameter_m;
     const uint water = water_of(diameter, hit.weight, hit.id);

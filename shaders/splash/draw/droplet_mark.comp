@@ -1,5 +1,5 @@
 // droplet_mark.comp - marks the droplets and piles that a view may see, where droplets are many.
-// One invocation per droplet. Reads: droplets. Writes: picks.
+// One invocation per droplet. Reads: droplets. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,5 +10,5 @@
 void main()
 {
     const uint groups = state.view_groups[0];
-    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[3](groups, groups, groups));
+    mark_selected_sets(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[3](groups, groups, groups));
 }

@@ -13,7 +13,7 @@ uint kind_of(Sprite sprite, Projected p)
 {
     const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
     const bool second = is_film() ? p.width_px >= WIDE_PX && sprite.kind != VIRGA_SPRITE_PUFF : pile;
-    return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
+    return p.coverage <= 0.0 ? NOT_SELECTED : second ? SECOND_KIND : FIRST_KIND;
 }
 
 // Whether a droplet is as thin as droplets can be, so that all lines have the same width.
@@ -23,17 +23,17 @@ bool is_line(Projected p)
            is_whole(p.head.xy / p.head.w, p.tail.xy / p.tail.w, 0.5 * view.min_width_px + 0.5);
 }
 
-// Picks of a droplet: as a line, as another sprite, and of its pile.
+// Selection of a droplet: as a line, as another sprite, and of its pile.
 uint[3] droplet_kinds(uint slot)
 {
     if (slot >= state.staying)
-        return uint[3](NOT_PICKED, NOT_PICKED, NOT_PICKED);
+        return uint[3](NOT_SELECTED, NOT_SELECTED, NOT_SELECTED);
     const virga_droplet_gpu droplet = droplet_of(slot);
     const Sprite flies = droplet_sprite(droplet, 0.0), pile = pile_sprite(droplet, 0.0);
     const Projected p = project_sprite(flies);
     const uint kind = kind_of(flies, p);
     const bool line = kind == FIRST_KIND && is_line(p);
-    return uint[3](line ? kind : NOT_PICKED, line ? NOT_PICKED : kind, kind_of(pile, project_sprite(pile)));
+    return uint[3](line ? kind : NOT_SELECTED, line ? NOT_SELECTED : kind, kind_of(pile, project_sprite(pile)));
 }
 
 uint[3] droplet_sets()
@@ -60,22 +60,22 @@ uint sheet_kind(virga_splash_gpu splash, Crown crown)
 {
     const Crown before = crown_at(splash, view.time_open_s);
     if (max(crown.height, before.height) <= 0.0 || !on_picture(crown))
-        return NOT_PICKED;
+        return NOT_SELECTED;
     // The paper has no sheets except crowns, which are pyramids.
     const bool drawn = is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE;
-    return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
+    return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_SELECTED;
 }
 
-// Picks of a splash: its puff, and its sheet where that is large enough on the picture.
+// Selection of a splash: its puff, and its sheet where that is large enough on the picture.
 uint[2] splash_kinds(uint entry)
 {
     const uint slot = splash_slot(entry);
     if (slot == NO_SLOT)
-        return uint[2](NOT_PICKED, NOT_PICKED);
+        return uint[2](NOT_SELECTED, NOT_SELECTED);
     const virga_splash_gpu splash = splash_of(slot);
     const Crown crown = crown_at(splash, view.time_close_s);
     const Sprite sprite = puff_sprite(splash, 0.0);
-    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(sprite, project_sprite(sprite));
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_SELECTED : kind_of(sprite, project_sprite(sprite));
     return uint[2](puff, sheet_kind(splash, crown));
 }
 

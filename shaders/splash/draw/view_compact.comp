@@ -1,5 +1,5 @@
 // view_compact.comp - compaction of a view's sprites and sheets, third pass: writes both lists.
-// One invocation per word of 32 slots. Reads: picks. Writes: the lists.
+// One invocation per word of 32 slots. Reads: selection. Writes: the lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,7 @@
-// view_lists.glsl - the two lists of a view, sprites and sheets: which words of picks belong to each, and where their
-// entries are.
+// view_lists.glsl - the two lists of a view, sprites and sheets: which words of the selection belong to each, and where
+// their entries are.
 struct WordRange {
-    uint first, count;    // first word of picks, and the number of words
+    uint first, count;    // first word of the selection, and the number of words
     uint entry, capacity; // first entry in the list buffer, and room for entries
 };
 

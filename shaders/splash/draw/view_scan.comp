@@ -1,6 +1,6 @@
 // view_scan.comp - compaction of a view's sprites and sheets, second pass: prefix sums, and the arguments of the draws.
-// For few picks it also writes the lists, which saves a dispatch.
-// One workgroup for sprites and one for sheets. Reads: picks. Writes: picks, lists, draw arguments.
+// For a small selection it also writes the lists, which saves a dispatch.
+// One workgroup for sprites and one for sheets. Reads: selection. Writes: selection, lists, draw arguments.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +21,8 @@ layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gp
 // Index of the first entry of the first kind from a set (see droplet_sets and splash_sets).
 uint first_of_set(uint groups_before, virga_list_gpu head)
 {
-    return min(groups_before < state.sprite_groups[0] ? picks[groups_before * GROUP_WORDS].z : head.count, head.count);
+    const bool is_past = groups_before >= state.sprite_groups[0];
+    return is_past ? head.count : min(selection[groups_before * GROUP_WORDS].z, head.count);
 }
 
 // Six indices per sprite, two per line, twelve per pyramid. The second kind comes first in the list, then lines.

@@ -1,12 +1,12 @@
-// splat_mark.comp - the list of visible surfels, first pass: picks those that face the camera and are in the picture.
-// One invocation per surfel. Reads: surfels. Writes: picks.
+// splat_mark.comp - the list of visible surfels, first pass: selects those that face the camera and are in the picture.
+// One invocation per surfel. Reads: surfels. Writes: selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "surfels.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 4
+#define COMPACT_SELECTION_BINDING 4
 #define COMPACT_LIST_BINDING 5
 #include "gpu/compact_mark.glsl"
 
@@ -27,8 +27,8 @@ bool is_visible(Surfel s)
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    bool picked = false;
+    bool selected = false;
     if (index < state.surfels)
-        picked = is_visible(surfel_at(index));
-    mark_pick(picked ? FIRST_KIND : NOT_PICKED);
+        selected = is_visible(surfel_at(index));
+    mark_selected(selected ? FIRST_KIND : NOT_SELECTED);
 }

@@ -1,5 +1,5 @@
 // splat_scan.comp - the list of visible surfels, second pass.
-// One workgroup, in which each invocation takes a run of words. Reads and writes: picks, the list's head, prepared.
+// One workgroup, in which each invocation takes a run of words. Reads and writes: selection, the list's head, prepared.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,7 +8,7 @@
 #include "water/state.glsl"
 #include "prepared.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 4
+#define COMPACT_SELECTION_BINDING 4
 #define COMPACT_LIST_BINDING 5
 #include "gpu/compact_scan.glsl"
 
@@ -16,7 +16,7 @@ layout(local_size_x = VIRGA_WATER_LANES) in;
 
 void main()
 {
-    const uint found = scan_picks(state.surfel_groups[0], look.max_splats).x;
+    const uint found = scan_selection(state.surfel_groups[0], look.max_splats).x;
     if (gl_LocalInvocationIndex != 0u)
         return;
     prepared.vertices = 3u * min(found, look.max_splats);

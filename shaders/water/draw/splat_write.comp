@@ -22,7 +22,7 @@
 #include "view.glsl"
 #include "surfels.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 4
+#define COMPACT_SELECTION_BINDING 4
 #define COMPACT_LIST_BINDING 5
 #include "gpu/compact_buffers.glsl"
 

@@ -13,7 +13,7 @@
 //
 // Foam and spray dissolve with time, bubbles do not. In the paper spray does not, either; here it has no floor to fall
 // onto.
-// One invocation per slot. Reads: sorted, sorted_velocities. Reads and writes: foam. Writes: picks,
+// One invocation per slot. Reads: sorted, sorted_velocities. Reads and writes: foam. Writes: selection,
 // state.foam_kinds.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -21,7 +21,7 @@
 #include "foam.glsl"
 #include "water/spray/air.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 7
+#define COMPACT_SELECTION_BINDING 7
 #define COMPACT_LIST_BINDING 9
 #include "gpu/compact_mark.glsl"
 
@@ -113,9 +113,9 @@ void main()
 {
     const uint slot = gl_GlobalInvocationID.x;
     const float gap_s = foam_gap_s();
-    uint pick = NOT_PICKED;
+    uint selected = NOT_SELECTED;
     if (slot < frame.max_foam) {
-        pick = FIRST_KIND;
+        selected = FIRST_KIND;
         virga_foam_gpu own = foam[slot];
         if (own.life_s > 0.0) {
             own.age_s += gap_s;
@@ -123,10 +123,10 @@ void main()
             if (own.life_s > 0.0) {
                 move(own, gap_s);
                 atomicAdd(state.foam_kinds[own.kind], 1u);
-                pick = SECOND_KIND;
+                selected = SECOND_KIND;
             }
             foam[slot] = own;
         }
     }
-    mark_pick(pick);
+    mark_selected(selected);
 }

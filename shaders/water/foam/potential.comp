@@ -8,14 +8,14 @@
 // (1 - n_i . n_j) W (equation 4), divided as trapped air is; along the normal it moves if v_i . n_i is at least 0.6,
 // with unit vectors. Particles of foam are whole: n is rounded by a random number.
 //
-// One invocation per sorted particle. Reads: sorted, sorted_velocities, normals. Writes: emissions, picks.
+// One invocation per sorted particle. Reads: sorted, sorted_velocities, normals. Writes: emissions, selection.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define STATE_ACCESS readonly
 #include "foam.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 7
+#define COMPACT_SELECTION_BINDING 7
 #define COMPACT_LIST_BINDING 13
 #include "gpu/compact_mark.glsl"
 
@@ -76,5 +76,5 @@ void main()
         emission = emission_of(own, foam_gap_s());
         emissions[own] = uvec4(emission, 0u, 0u);
     }
-    mark_pick(emission.x > 0u ? FIRST_KIND : NOT_PICKED);
+    mark_selected(emission.x > 0u ? FIRST_KIND : NOT_SELECTED);
 }

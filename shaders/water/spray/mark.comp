@@ -1,8 +1,8 @@
-// mark.comp - the list of splash particles, first pass: picks particles of low density. Those of which others have
-// water are picked whatever their density is, and first, so that none of them is forgotten.
+// mark.comp - the list of splash particles, first pass: selects particles of low density. Those of which others have
+// water are selected whatever their density is, and first, so that none of them is forgotten.
 //
 // A particle whose droplets were handed over has no volume here, and one of which others have water has less.
-// One invocation per sorted particle. Reads: densities, the last frame's splashes. Writes: picks, sorted.
+// One invocation per sorted particle. Reads: densities, the last frame's splashes. Writes: selection, sorted.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +12,7 @@
 #include "leaver.glsl"
 #include "count.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 7
+#define COMPACT_SELECTION_BINDING 7
 #define COMPACT_LIST_BINDING 9
 #include "gpu/compact_mark.glsl"
 
@@ -29,12 +29,12 @@ float part_here(uint particle, virga_leaver_gpu before, float part)
 void main()
 {
     const uint own = gl_GlobalInvocationID.x;
-    uint kind = NOT_PICKED;
+    uint kind = NOT_SELECTED;
     if (own < grid.sorted) {
         const uint particle = sorted_indices[own];
         const float part = spray_part(densities[particle]);
         const uint before = frame.looks_back == 0u ? frame.max_splashes : find_before(particles[particle].id);
-        kind = part > 0.0 ? FIRST_KIND : NOT_PICKED;
+        kind = part > 0.0 ? FIRST_KIND : NOT_SELECTED;
         if (before < frame.max_splashes) {
             const virga_leaver_gpu leaver = splashes[splash_before(before)];
             if (leaver.given_nl > 0u) {
@@ -45,5 +45,5 @@ void main()
             }
         }
     }
-    mark_pick(kind);
+    mark_selected(kind);
 }

@@ -1,6 +1,6 @@
-// block_mark.comp - the list of blocks, first pass: picks the cells that the surface may run through, as particles of
+// block_mark.comp - the list of blocks, first pass: selects the cells that the surface may run through, as particles of
 // low density near them have marked them.
-// One invocation per cell. Reads: cell_marks. Writes: picks, block_of (reset).
+// One invocation per cell. Reads: cell_marks. Writes: selection, block_of (reset).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +9,7 @@
 #define BLOCKS_ACCESS
 #include "water/blocks.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
-#define COMPACT_PICKS_BINDING 8
+#define COMPACT_SELECTION_BINDING 8
 #define COMPACT_LIST_BINDING 10
 #include "gpu/compact_mark.glsl"
 
@@ -33,10 +33,10 @@ bool is_block(uint cell)
 void main()
 {
     const uint cell = gl_GlobalInvocationID.x;
-    bool picked = false;
+    bool selected = false;
     if (cell < grid.cells) {
-        picked = is_block(cell);
+        selected = is_block(cell);
         block_of[cell] = NO_BLOCK;
     }
-    mark_pick(picked ? FIRST_KIND : NOT_PICKED);
+    mark_selected(selected ? FIRST_KIND : NOT_SELECTED);
 }

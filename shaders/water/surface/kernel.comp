@@ -15,7 +15,7 @@
 //   - With few neighbours (equation 15 has a limit of 25) a kernel becomes a small ball, by degrees: particles that
 //     leave the water do not jump from one shape to the other.
 //
-// One invocation per sorted particle. Reads: sorted, shifts, picks, densities. Writes: centers; reads and writes:
+// One invocation per sorted particle. Reads: sorted, shifts, selection, densities. Writes: centers; reads and writes:
 // shapes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -28,7 +28,7 @@
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
 layout(std430, set = 0, binding = 8) readonly buffer Densities { float densities[]; };
-layout(std430, set = 0, binding = 10) readonly buffer Picks { uvec4 picks[]; };
+layout(std430, set = 0, binding = 10) readonly buffer Selection { uvec4 selection[]; };
 
 vec3 here, shift;
 float inv_h2;
@@ -49,7 +49,7 @@ bool is_near_surface(uint cell)
     for (uint i = 0u; i < 27u; i++) {
         const uint at = cell + i % 3u + (i / 3u % 3u) * dims.x + (i / 9u) * dims.x * dims.y - 1u - dims.x -
                         dims.x * dims.y;
-        found |= picks[at >> 5].x >> (at & 31u) & 1u;
+        found |= selection[at >> 5].x >> (at & 31u) & 1u;
     }
     return found != 0u;
 }
