@@ -182,8 +182,8 @@ struct virga_rain {
     uint64_t hits_frame; /* the frame that hits_panes belongs to */
     uint32_t hits_panes, hits_offset;
     rain_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
-    double unseen_s;                         /* time of rain since a drop was last visible in a view */
-    double unseen_at_s;                      /* time of the newest frame that counted for it */
+    double unseen_s[VIRGA_MAX_VIEWS];        /* time of rain since a drop was last visible in this view */
+    double unseen_at_s;                      /* time of the newest frame that was read */
     bool unseen_logged;
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
     virga_rain_stats stats;

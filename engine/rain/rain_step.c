@@ -43,21 +43,29 @@ static void read_views(virga_rain_stats *stats, uint32_t views, const virga_prep
 
 /* The usual causes are a camera in other units or axes than the rain's, or one that is closed in by occluders. Such
  * rain looks as if it did not work. */
-static void log_if_unseen(virga_rain *rain)
+static void log_unseen(virga_rain *rain, uint32_t view)
+{
+    if (rain->unseen_logged)
+        return;
+    virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
+                    "rain: in view %u of %u of a frame no drop was visible in %.0f s of rain: is the camera where "
+                    "camera_m is, in metres with Y up (virga/world.h), and under the open sky?",
+                    view + 1, rain->stats.views, UNSEEN_S);
+    rain->unseen_logged = true;
+}
+
+/* Each view counts by itself: one half of a split screen may be wrong. Only time in frames with views counts. */
+static void count_unseen(virga_rain *rain, bool has_views)
 {
     const virga_rain_stats *stats = &rain->stats;
     const double passed = stats->time_s - rain->unseen_at_s;
-    const bool seen = stats->streaks || !(rain->classes->rate_mm_h > 0);
     rain->unseen_at_s = stats->time_s;
-    rain->unseen_s = seen || passed < 0 ? 0 : rain->unseen_s + passed;
-    if (rain->unseen_s < UNSEEN_S || rain->unseen_logged)
-        return;
-    virga_log_write(
-        &rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
-        "rain: no drop was visible in the views of %.0f s of rain: is the camera where camera_m is, in metres "
-        "with Y up (virga/world.h), and under the open sky?",
-        UNSEEN_S);
-    rain->unseen_logged = true;
+    for (uint32_t i = 0; i < VIRGA_MAX_VIEWS && has_views; i++) {
+        const bool seen = i >= stats->views || stats->view_streaks[i] || !(rain->classes->rate_mm_h > 0);
+        rain->unseen_s[i] = seen || passed < 0 ? 0 : rain->unseen_s[i] + passed;
+        if (rain->unseen_s[i] >= UNSEEN_S)
+            log_unseen(rain, i);
+    }
 }
 
 void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
@@ -71,8 +79,7 @@ void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint
         read_views(&rain->stats, rain->base.readback_views[ring_slot], read.prepared);
     if (parts & 1u << RAIN_PART_STEP)
         read_step(rain, &rain->frame_stats[ring_slot], &read);
-    if (parts & 1u << RAIN_PART_PREPARE)
-        log_if_unseen(rain);
+    count_unseen(rain, parts & 1u << RAIN_PART_PREPARE);
 }
 
 /* Drops are where the time says, whatever was lost. Without maps rain falls everywhere until they are drawn again. */

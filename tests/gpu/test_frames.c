@@ -86,24 +86,36 @@ static void completed_does_not_pass_the_newest_frame(void **state)
 
 /* ---- rain that nobody sees */
 
-/* Seconds of rain, with the camera that far from the drops. Returns the number of lines about it. */
-static uint32_t lines_of_unseen_rain(gpu_fixture *f, double away_m)
+static virga_rain *rain_of_views(virga_context *context, uint32_t views)
+{
+    virga_rain_def def = gpu_rain_def();
+    virga_rain_settings settings = virga_default_rain_settings();
+    virga_rain *rain = NULL;
+    def.max_views = views;
+    settings.rate_mm_h = 100;
+    REQUIRE(virga_rain_create(context, &def, &rain) == VIRGA_OK);
+    REQUIRE(virga_rain_set(rain, &settings) == VIRGA_OK);
+    return rain;
+}
+
+/* Seconds of rain, with views whose cameras are that far from the drops. Every `pause`-th frame has views. Returns the
+ * number of lines about it. */
+static uint32_t lines_of_unseen_rain(gpu_fixture *f, uint32_t views, const double *away_m, int pause)
 {
     virga_context *context = gpu_context(f);
-    virga_rain *rain = gpu_rain(context);
+    virga_rain *rain = rain_of_views(context, views);
     gpu_picture picture;
     gpu_picture_open(f, context, &picture);
-    virga_rain_settings settings = virga_default_rain_settings();
-    settings.rate_mm_h = 100;
-    REQUIRE(virga_rain_set(rain, &settings) == VIRGA_OK);
     gpu_forget_log(f);
     for (int frame = 0; frame < 40; frame++) {
         const virga_rain_step_info step = {.dt_s = 0.25};
-        virga_view view = gpu_view(&picture);
-        view.position_m[0] = view.open_position_m[0] = away_m;
         const VkCommandBuffer cmd = gpu_begin_frame(f, context);
         assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_OK);
-        assert_int_equal(virga_rain_prepare(rain, cmd, &view, virga_rain_time(rain)), VIRGA_OK);
+        for (uint32_t i = 0; i < views && frame % pause == 0; i++) {
+            virga_view view = gpu_view(&picture);
+            view.position_m[0] = view.open_position_m[0] = away_m[i];
+            assert_int_equal(virga_rain_prepare(rain, cmd, &view, virga_rain_time(rain)), VIRGA_OK);
+        }
         gpu_submit(f);
     }
     gpu_wait(f);
@@ -115,12 +127,24 @@ static uint32_t lines_of_unseen_rain(gpu_fixture *f, double away_m)
     return lines;
 }
 
-/* A camera in other units than the rain's. */
+/* A camera in other units than the rain's, and one of two halves of a screen. */
 static void rain_that_nobody_sees_is_told_once(void **state)
 {
+    static const double here[2] = {0, 0}, away[2] = {1000, 1000}, one_away[2] = {1000, 0}, other_away[2] = {0, 1000};
     gpu_fixture *f = *state;
-    assert_int_equal(lines_of_unseen_rain(f, 0), 0);
-    assert_int_equal(lines_of_unseen_rain(f, 1000), 1);
+    assert_int_equal(lines_of_unseen_rain(f, 1, here, 1), 0);
+    assert_int_equal(lines_of_unseen_rain(f, 1, away, 1), 1);
+    assert_int_equal(lines_of_unseen_rain(f, 2, here, 1), 0);
+    assert_int_equal(lines_of_unseen_rain(f, 2, away, 1), 1);
+    assert_int_equal(lines_of_unseen_rain(f, 2, one_away, 1), 1);
+    assert_int_equal(lines_of_unseen_rain(f, 2, other_away, 1), 1);
+}
+
+/* Two looks at nothing, 5 s apart, are no seconds of rain. */
+static void time_without_views_is_not_time_unseen(void **state)
+{
+    static const double away[1] = {1000};
+    assert_int_equal(lines_of_unseen_rain(*state, 1, away, 20), 0);
 }
 
 /* ---- timings */
@@ -180,6 +204,7 @@ int main(void)
         gpu_kept_test(frames_rise_and_completed_stays_behind),
         gpu_kept_test(completed_does_not_pass_the_newest_frame),
         gpu_kept_test(rain_that_nobody_sees_is_told_once),
+        gpu_kept_test(time_without_views_is_not_time_unseen),
         gpu_kept_test(passes_are_timed_one_by_one_on_processors_alone),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

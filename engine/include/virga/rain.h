@@ -392,8 +392,9 @@ VIRGA_API void virga_rain_drops(const virga_rain *rain, virga_rain_buffer *drops
 VIRGA_API virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points,
                                                uint32_t *count, double origin_m[3]);
 
-/* The newest statistics of completed frames. If no drop was visible in the views of 3 s of rain, the log says so once
- * (VIRGA_LOG_NOT_DRAWN). They are late by the frames in flight, see virga_frame_completed. */
+/* The newest statistics of completed frames. They are late by the frames in flight, see virga_frame_completed. If a
+ * view, by its place among those of a frame, shows no drop in 3 s of rain, the log says so once
+ * (VIRGA_LOG_NOT_DRAWN). */
 typedef struct virga_rain_stats {
     uint64_t frame_index;                   /* frame in which they were recorded; 0: none yet */
     double time_s;                          /* simulated time */
