@@ -50,9 +50,16 @@ render first --rain 10 --frames 1 --pipelines "$work/pipelines"
 [ -s "$work/pipelines" ] || { echo "no pipelines were kept"; exit 1; }
 without_layers second --rain 10 --frames 1 --pipelines "$work/pipelines"
 
+# Frames as long as they take; the quantiles of their times are printed.
+(unset VK_INSTANCE_LAYERS VK_LAYER_ENABLES
+    "$drive" --device "${VIRGA_TEST_DEVICE:-cpu}" --size 160x96 --rain 10 --frames 12 --quality low --real-time \
+        --out "$work/timed.png" >"$work/timed.log" 2>&1) || { cat "$work/timed.log"; exit 1; }
+grep -qE "^frame +[0-9.]+ ms median, 90 % [0-9.]+, 99 % [0-9.]+, longest [0-9.]+, of 4 frames" "$work/timed.log" ||
+    { cat "$work/timed.log"; echo "no times of frames"; exit 1; }
+
 # Every option of the command line stands in the help.
 "$drive" --help >"$work/help" || { echo "drive --help failed"; exit 1; }
-for option in track start outside rain wipers frames out fps size quality budget device pipelines; do
+for option in track start outside rain wipers frames out fps real-time size quality budget device pipelines; do
     grep -q -- "--$option" "$work/help" || { echo "drive --help does not say --$option"; exit 1; }
 done
 

@@ -4,7 +4,8 @@
  * the renderer only sees the maps and lamps that its material reads.
  *
  *     drive [MODEL.glb] [--track FILE] [--outside] [--rain MM_H] [--wipers off|intermittent|slow|fast] [--start M]
- *           [--frames N --out FILE.png [--fps N]] [--size WxH] [--device N|gpu|cpu|NAME] [--pipelines FILE]
+ *           [--frames N --out FILE.png [--fps N | --real-time]] [--size WxH] [--quality NAME] [--budget MS]
+ *           [--device N|gpu|cpu|NAME] [--pipelines FILE]
  *
  * Keys: C camera, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.
  */
@@ -147,7 +148,7 @@ static bool create_rain(drive *d)
     windshield.height_m = CAR_GLASS_HEIGHT_M;
     windshield.max_texels = 2048; /* enough for a pane that fills the picture */
 
-    if (d->chosen.out)
+    if (d->chosen.out && !d->chosen.real_time)
         def.rain.max_ticks_per_step = 64; /* frames of files may be long, and are simulated in full */
     def.rain.occlusion_slants = 1;
     def.rain.max_panes = 1; /* the windshield catches the same drops that are drawn */

@@ -5,6 +5,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define LONGEST_FRAME_S 0.1 /* the world's time in a frame that took longer */
 
 void move_camera(drive *d, double dt_s)
 {
@@ -92,7 +96,7 @@ bool run_window(drive *d)
     for (uint32_t i = 0; !glfwWindowShouldClose(d->window) && (!d->chosen.frames || i < d->chosen.frames); i++) {
         glfwPollEvents();
         read_keys(d);
-        const double now_s = glfwGetTime(), dt_s = fmin(fmax(now_s - then_s, 0), 0.1); /* a long frame is shortened */
+        const double now_s = glfwGetTime(), dt_s = fmin(fmax(now_s - then_s, 0), LONGEST_FRAME_S);
         then_s = now_s;
         if (!run_frame(d, dt_s, false))
             return false;
@@ -101,13 +105,59 @@ bool run_window(drive *d)
     return host_wait(&d->device, d->error, sizeof d->error);
 }
 
+/* ---- frames without a window */
+
+#define WARM_UP_FRAMES 8 /* they are not counted: pipelines are compiled when they are first used, maps are new */
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* How even the frames were. A frame lasts from its beginning to that of the next one. */
+static void print_frame_times(double *frame_s, uint32_t count)
+{
+    if (count <= WARM_UP_FRAMES)
+        return;
+    frame_s += WARM_UP_FRAMES;
+    count -= WARM_UP_FRAMES;
+    qsort(frame_s, count, sizeof *frame_s, by_size);
+    printf("%-24s %8.3f ms median, 90 %% %.3f, 99 %% %.3f, longest %.3f, of %u frames\n", "frame",
+           1e3 * frame_s[count / 2], 1e3 * frame_s[count * 9 / 10], 1e3 * frame_s[count * 99 / 100],
+           1e3 * frame_s[count - 1], count);
+}
+
+/* Time passes by equal steps, or as long as the frame before has taken, as in a window. */
+static bool run_frames(drive *d, double *frame_s)
+{
+    double dt_s = 1.0 / d->chosen.fps, then_s = seconds();
+    for (uint32_t i = 0; i < d->chosen.frames; i++) {
+        if (!run_frame(d, dt_s, i + 1 == d->chosen.frames))
+            return false;
+        const double at_s = seconds();
+        frame_s[i] = at_s - then_s;
+        then_s = at_s;
+        if (d->chosen.real_time)
+            dt_s = fmin(frame_s[i], LONGEST_FRAME_S);
+    }
+    return host_wait(&d->device, d->error, sizeof d->error);
+}
+
 bool run_file(drive *d)
 {
-    for (uint32_t i = 0; i < d->chosen.frames; i++)
-        if (!run_frame(d, 1.0 / d->chosen.fps, i + 1 == d->chosen.frames))
-            return false;
-    if (!host_wait(&d->device, d->error, sizeof d->error))
-        return false;
-    return png_write(d->chosen.out, d->stage.width, d->stage.height, 4, stage_picture(&d->stage), d->error,
-                     sizeof d->error);
+    double *frame_s = calloc(d->chosen.frames, sizeof *frame_s);
+    const bool good = frame_s && run_frames(d, frame_s);
+    if (good)
+        print_frame_times(frame_s, d->chosen.frames);
+    free(frame_s);
+    return good && png_write(d->chosen.out, d->stage.width, d->stage.height, 4, stage_picture(&d->stage), d->error,
+                             sizeof d->error);
 }

@@ -23,6 +23,7 @@ extern const char *const wiper_names[WIPER_SPEEDS];
 /* The command line; options.c. */
 typedef struct choices {
     bool has_quality; /* else the device decides */
+    bool real_time;   /* without a window: a frame's time is that of the frame before */
     const char *model, *track, *out, *device, *pipelines;
     uint32_t frames, fps, width, height;
     double start_m;

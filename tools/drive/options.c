@@ -48,6 +48,7 @@ static bool parse_option(drive *d, int option, const char *value)
     case 'o': d->chosen.out = value; return true;
     case 'p': d->chosen.pipelines = value; return true;
     case 'O': d->outside = true; return true;
+    case 'R': d->chosen.real_time = true; return true;
     case 'w': return parse_wipers(d, value);
     case 'q': return parse_quality(d, value);
     case 'b':
@@ -79,14 +80,21 @@ static bool parse_option(drive *d, int option, const char *value)
 
 bool read_command_line(drive *d, int argc, char **argv)
 {
-    static const struct option options[] = {
-        {"track", required_argument, NULL, 't'},  {"device", required_argument, NULL, 'd'},
-        {"out", required_argument, NULL, 'o'},    {"pipelines", required_argument, NULL, 'p'},
-        {"outside", no_argument, NULL, 'O'},      {"wipers", required_argument, NULL, 'w'},
-        {"rain", required_argument, NULL, 'r'},   {"start", required_argument, NULL, 's'},
-        {"frames", required_argument, NULL, 'n'}, {"fps", required_argument, NULL, 'f'},
-        {"size", required_argument, NULL, 'S'},   {"quality", required_argument, NULL, 'q'},
-        {"budget", required_argument, NULL, 'b'}, {0}};
+    static const struct option options[] = {{"track", required_argument, NULL, 't'},
+                                            {"device", required_argument, NULL, 'd'},
+                                            {"out", required_argument, NULL, 'o'},
+                                            {"pipelines", required_argument, NULL, 'p'},
+                                            {"outside", no_argument, NULL, 'O'},
+                                            {"wipers", required_argument, NULL, 'w'},
+                                            {"rain", required_argument, NULL, 'r'},
+                                            {"start", required_argument, NULL, 's'},
+                                            {"frames", required_argument, NULL, 'n'},
+                                            {"fps", required_argument, NULL, 'f'},
+                                            {"size", required_argument, NULL, 'S'},
+                                            {"quality", required_argument, NULL, 'q'},
+                                            {"budget", required_argument, NULL, 'b'},
+                                            {"real-time", no_argument, NULL, 'R'},
+                                            {0}};
     static char track_path[4096];
     d->chosen = (choices){.model = DRIVE_ASSETS "/scenes/street.glb", .fps = 30, .width = 1280, .height = 720};
     d->rate_mm_h = 30;
@@ -102,7 +110,7 @@ bool read_command_line(drive *d, int argc, char **argv)
     if (d->chosen.out && !d->chosen.frames)
         return complain("--out", "--frames N with it");
     if (d->budget_ms < 0) /* files are the same whenever they are made */
-        d->budget_ms = d->chosen.out ? 0 : 8;
+        d->budget_ms = d->chosen.out && !d->chosen.real_time ? 0 : 8;
     if (!d->chosen.track) { /* the model's name, among our scenes */
         const char *name = strrchr(d->chosen.model, '/') ? strrchr(d->chosen.model, '/') + 1 : d->chosen.model;
         snprintf(track_path, sizeof track_path, "%s/scenes/%.*s.track", DRIVE_ASSETS, (int)strcspn(name, "."), name);
@@ -122,6 +130,7 @@ void print_help(void)
            "      --frames N           ends after so many\n"
            "      --out FILE.png       the last of them as a picture, and no window\n"
            "      --fps N              frames a second of --out. Default 30\n"
+           "      --real-time          with --out: a frame has the time that the one before took, as in a window\n"
            "      --size WxH           Default 1280x720\n"
            "      --quality NAME       low, medium, high or film. Default by the kind of device\n"
            "      --budget MS          device time for ticks in a frame. 0: no limit. Default 8, and 0 with --out\n"
