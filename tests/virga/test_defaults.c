@@ -110,6 +110,29 @@ static void water(void **state)
     scene_file_free(scene);
 }
 
+static void solver(void **state)
+{
+    (void)state;
+    const char *overrides[] = {"water={solver: {boxes: [{low_m: [0, 0, 0], high_m: [0.1, 0.1, 0.1]}]}}"};
+    scene_file *scene = load_with(overrides, 1);
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    {
+        const virga_fluid_def def = virga_default_fluid_def();
+        SAME(max_iterations);
+    }
+    const virga_fluid_settings def = virga_default_fluid_settings();
+    SAME(spacing_m);
+    SAME(viscosity_m2_s);
+    SAME(cfl);
+    SAME(solver_error);
+    for (int axis = 0; axis < 3; axis++) {
+        SAME(gravity_m_s2[axis]);
+        assert_float_equal(from->walls.low_m[axis], def.low_m[axis], 0);
+        assert_float_equal(from->walls.high_m[axis], def.high_m[axis], 0);
+    }
+    scene_file_free(scene);
+}
+
 /* Enumerations of scene files have the values of the library's. */
 static void enumerations(void **state)
 {
@@ -252,9 +275,10 @@ static void enumerations_of_panes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(splashes), cmocka_unit_test(enumerations),
-                                       cmocka_unit_test(ground),   cmocka_unit_test(panes),
-                                       cmocka_unit_test(wipers),   cmocka_unit_test(enumerations_of_panes),
-                                       cmocka_unit_test(water)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(splashes), cmocka_unit_test(enumerations), cmocka_unit_test(ground),
+        cmocka_unit_test(panes),    cmocka_unit_test(wipers),       cmocka_unit_test(enumerations_of_panes),
+        cmocka_unit_test(water),    cmocka_unit_test(solver),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -219,6 +219,9 @@ typedef struct tool_effect {
 
     /* Applies the settings of a time. */
     bool (*apply)(shot *s, void *state, double time_s, char *error, size_t error_size);
+    /* Records what comes before the step of the simulation, which ends at `time_s` and takes `dt_s`. */
+    bool (*before_step)(shot *s, void *state, VkCommandBuffer cmd, double time_s, double dt_s, char *error,
+                        size_t error_size);
     /* Fills its part of the simulation's input for a step. */
     bool (*fill_frame)(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
                        char *error, size_t error_size);

@@ -22,17 +22,20 @@ static const scene_keyword water_kernels[] = {
 static const scene_row water_rows[] = {
     FILE_NAME(scene_water, files, OPTIONAL | SCENE_ROW_NUMBERED,
               "PLY, legacy VTK or bgeo of each frame of a simulation, like dam_%04d.ply"),
+    OPTIONAL_GROUP(scene_water, solver, &water_solver_group, RESTARTS, "simulates water; in place of files"),
     NUMBER(scene_water, rate_hz, 0.001, 100000, "@frames.fps", RESTARTS, "numbers of the files in a second"),
     WHOLE(scene_water, step, 1, 1000000, "1", RESTARTS, "from the number of a file to that of the next"),
     OPTIONAL_NUMBER(scene_water, first, 0, 999999999, RESTARTS, "number of the first file; else the smallest"),
-    NUMBER(scene_water, start_s, -100000, 100000, "0", LIVE, "time of the first file in the scene"),
+    NUMBER(scene_water, start_s, -100000, 100000, "0", LIVE,
+           "time of the first file in the scene; of a solver: when the water begins to move"),
     CHOICE(scene_water, ids, water_ids, "file", RESTARTS,
            "what tells which particle is which: an attribute, the row in the file, or nothing"),
     CHOICE(scene_water, up, water_ups, "y", LIVE, "axis of the files that points up"),
     NUMBER(scene_water, unit_m, 0.000001, 1000000, "1", RESTARTS, "metres of a unit of length in the files"),
-    NUMBER(scene_water, position_m, -MAX_METERS, MAX_METERS, "[0, 0, 0]", LIVE, "of the files' origin"),
+    NUMBER(scene_water, position_m, -MAX_METERS, MAX_METERS, "[0, 0, 0]", LIVE, "of the origin of files or solver"),
     NUMBER(scene_water, rotation_deg, -36000, 36000, "[0, 0, 0]", LIVE, "about the world's X, then Y, then Z axis"),
-    NUMBER(scene_water, spacing_m, 0, 10, "0", RESTARTS, "distance of particles at rest; 0: guessed from the files"),
+    NUMBER(scene_water, spacing_m, 0, 10, "0", RESTARTS,
+           "distance of particles at rest; 0: guessed from the files, or that of the solver"),
     NUMBER(scene_water, volume, 0.01, 100, "1", LIVE,
            "of a particle, in spacing_m^3. 1 fits a guessed spacing; SPlisHSPlasH has 0.8 of the cube of its own"),
     NUMBER(scene_water, kernel_spacings, 1, 4, "2", LIVE, "radius of the kernel, in spacings; larger is smoother"),
@@ -69,12 +72,12 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, surfel_radius, 0.5, 4, "1.25", LIVE, "multiplies the size of surfels; larger is smoother"),
     NUMBER(scene_water, soft_m, 0, 10, "0.002", LIVE, "water fades over this depth where it meets geometry"),
     NUMBER(scene_water, light_gain, 0, 1000, "1", LIVE, "multiplies the light of lamps on the water"),
-    WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: by the files"),
-    WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: as many as there are"),
+    WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the water"),
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
-          "cells that the surface runs through; 280 bytes each; 0: by the files"),
+          "cells that the surface runs through; 280 bytes each; 0: by the water"),
     WHOLE(scene_water, max_foam, 0, 1048576, "131072", RESTARTS, "particles of foam; 80 bytes each; 0: none"),
-    WHOLE(scene_water, max_surfels, 0, 8388608, "0", RESTARTS, "of the surface; 32 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_surfels, 0, 8388608, "0", RESTARTS, "of the surface; 32 bytes each; 0: by the water"),
 };
 static const scene_group water_group = SCENE_GROUP(scene_water, water_rows);
 
@@ -83,7 +86,7 @@ static const scene_row water_section[] = {SECTION_GROUP("water", &water_group, "
 
 static bool is_used(const scene_file *scene)
 {
-    return scene_water_of(scene)->files;
+    return scene_water_of(scene)->files || water_is_solved(scene);
 }
 
 /* ---- checks --------------------------------------------------------------------------------------------------- */
@@ -91,15 +94,17 @@ static bool is_used(const scene_file *scene)
 static bool check_water(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_water *from = scene_water_of(scene);
-    return !from->first || *from->first == floor(*from->first) ||
-           scene_file_refuse(scene, "water.first", error, error_size, "expected a whole number, got %g", *from->first);
+    if (from->first && *from->first != floor(*from->first))
+        return scene_file_refuse(scene, "water.first", error, error_size, "expected a whole number, got %g",
+                                 *from->first);
+    return water_check_solver(scene, error, error_size);
 }
 
 /* That all files are there; they are read later. */
 static bool check(const scene_file *scene, char *error, size_t error_size)
 {
     particle_sequence *sequence = NULL;
-    const bool good = !is_used(scene) || water_open_sequence(scene, &sequence, error, error_size);
+    const bool good = !scene_water_of(scene)->files || water_open_sequence(scene, &sequence, error, error_size);
     particle_sequence_close(sequence);
     return good;
 }
@@ -108,7 +113,7 @@ static bool check_files(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_water *from = scene_water_of(scene);
     water_source source = {0};
-    if (!is_used(scene))
+    if (!from->files)
         return true;
     const bool good = water_open_source(scene, &source, error, error_size);
     if (good)
@@ -124,6 +129,12 @@ static void print(const scene_file *scene)
     const scene_water *from = scene_water_of(scene);
     if (from->files)
         printf("  water        %s\n", from->files);
+    if (water_is_solved(scene)) {
+        water_source source = {0};
+        water_describe_solver(scene, &source);
+        printf("  water        %u particles of %g m in a box of %g x %g x %g m\n", source.most, source.spacing_m,
+               source.extent_m[0], source.extent_m[1], source.extent_m[2]);
+    }
 }
 
 /* ---- life ----------------------------------------------------------------------------------------------------- */
@@ -134,15 +145,16 @@ static uint32_t size_of(uint32_t given, double wanted, uint32_t low, uint32_t hi
     return given ? given : (uint32_t)fmin(fmax(wanted, low), high);
 }
 
-/* Particles may become more than in the files that were read; without ids those of two files are there at once. The box
- * around them may become half as wide again. */
+/* Particles of files may become more than in those that were read; without ids those of two files are there at once.
+ * The box around them may become half as wide again. */
 static void size_pools(const scene_water *from, const water_source *source, virga_water_def *def)
 {
     const double cell_m = from->kernel_spacings * source->spacing_m;
     double cells = 1;
     for (int axis = 0; axis < 3; axis++)
         cells *= ceil(1.5 * source->extent_m[axis] / cell_m) + 4;
-    def->max_particles = size_of(from->max_particles, 2.0 * source->most, 4096, 8388608);
+    const double more = source->sequence ? 2 : 1;
+    def->max_particles = size_of(from->max_particles, more * source->most, 4096, 8388608);
     def->max_cells = size_of(from->max_cells, cells, def->max_cells, 16777216);
     def->max_blocks = size_of(from->max_blocks, source->most, def->max_blocks, 1048576);
     def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 2097152);
@@ -191,7 +203,8 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
 {
     water_state *p = state;
     p->water = virga_scene_water(s->simulation);
-    if (p->water && !mirror_environment(s, p->water, error, error_size))
+    if (p->water && (!mirror_environment(s, p->water, error, error_size) ||
+                     (water_is_solved(s->scene) && !water_open_solver(s, p, error, error_size))))
         return false;
     return !p->water ||
            host_buffer_create(&s->device, (VkDeviceSize)p->max_particles * sizeof(virga_particle_gpu) * HOST_FRAMES,
@@ -202,6 +215,7 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
 static void close_state(shot *s, void *state)
 {
     water_state *p = state;
+    water_close_solver(s, p);
     particle_sequence_close(p->source.sequence);
     host_buffer_destroy(&s->device, &p->particles);
     host_buffer_destroy(&s->device, &p->surfels.buffer);
@@ -260,6 +274,21 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.light_gain = (float)from->light_gain;
     settings.lighting = s->lighting;
     return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);
+}
+
+static bool before_step(shot *s, void *state, VkCommandBuffer cmd, double time_s, double dt_s, char *error,
+                        size_t error_size)
+{
+    water_state *p = state;
+    const double frame_s = time_s - scene_water_of(s->scene)->start_s;
+    return !p->solver.fluid || water_step_solver(s, p, cmd, frame_s, dt_s, error, error_size);
+}
+
+static bool step(shot *s, void *state, VkCommandBuffer cmd, double dt_s, char *error, size_t error_size)
+{
+    water_state *p = state;
+    (void)dt_s;
+    return !p->solver.fluid || !s->options.stats || water_read_solver(s, p, cmd, error, error_size);
 }
 
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
@@ -367,7 +396,7 @@ bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stat
 
 static void write_stats(shot *s, void *state, jsonl *stats)
 {
-    const water_state *p = state;
+    water_state *p = state;
     virga_water_stats now;
     if (!p->water || !water_step_stats(s, p, &now))
         return;
@@ -389,6 +418,8 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "foam_bubbles", now.foam_bubbles);
     jsonl_uint64(stats, "blocks", now.blocks);
     jsonl_uint64(stats, "blocks_dropped", now.blocks_dropped);
+    if (p->solver.fluid)
+        water_write_solver_stats(s, p, stats);
     jsonl_end(stats);
 }
 
@@ -429,7 +460,7 @@ const tool_effect water_effect = {
     .name = "water",
     .scene = {.group = SCENE_GROUP(scene_water, water_section), .check = check_water},
     .is_used = is_used,
-    .missing = "water; expected water.files",
+    .missing = "water; expected water.files or water.solver",
     .check = check,
     .check_files = check_files,
     .print = print,
@@ -438,7 +469,9 @@ const tool_effect water_effect = {
     .open = open_state,
     .close = close_state,
     .apply = apply,
+    .before_step = before_step,
     .fill_frame = fill_frame,
+    .step = step,
     TOOL_ROWS(layer, layers),
     .prepare = prepare,
     .points = &water_points,

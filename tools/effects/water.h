@@ -13,8 +13,30 @@ typedef enum scene_water_up { SCENE_WATER_UP_Y, SCENE_WATER_UP_Z } scene_water_u
 
 typedef enum scene_water_kernel { SCENE_WATER_KERNEL_ISOTROPIC, SCENE_WATER_KERNEL_ANISOTROPIC } scene_water_kernel;
 
+/* Water that the program simulates, see virga/fluid.h. All positions are relative to scene_water.position_m. */
+typedef struct scene_solver_box {
+    double low_m[3], high_m[3], velocity_m_s[3];
+} scene_solver_box;
+
+typedef struct scene_solver_walls {
+    double low_m[3], high_m[3];
+} scene_solver_walls;
+
+#define SCENE_SOLVER_MAX_BOXES 16 /* the max of the library between two steps */
+
+typedef struct scene_solver {
+    double spacing_m; /* 0: there is no solver */
+    scene_solver_walls walls;
+    scene_solver_box *boxes;
+    uint32_t box_count;
+    double gravity_m_s2[3];
+    double viscosity_m2_s, cfl, solver_error;
+    uint32_t max_substeps, max_iterations;
+} scene_solver;
+
 typedef struct scene_water {
-    char *files; /* NULL: no water */
+    char *files; /* NULL: no files */
+    scene_solver solver;
     double rate_hz;
     uint32_t step;
     double *first; /* NULL: the smallest number */

@@ -36,7 +36,7 @@ static bool make_mesh(const scene_file *scene, const water_state *state, const v
 
 static bool make(shot *s, void *state, tool_mesh_data *data, char *error, size_t error_size)
 {
-    const water_state *p = state;
+    water_state *p = state;
     const scene_water *from = scene_water_of(s->scene);
     uint32_t count;
     water_mesh mesh = {0};

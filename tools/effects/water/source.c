@@ -89,6 +89,10 @@ static bool read_frames(const scene_file *scene, water_source *source, char *err
 
 bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size)
 {
+    if (water_is_solved(scene)) {
+        water_describe_solver(scene, source);
+        return true;
+    }
     return water_open_sequence(scene, &source->sequence, error, error_size) &&
            read_frames(scene, source, error, error_size);
 }
@@ -140,6 +144,8 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     const VkDeviceSize part = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
     float matrix[9];
     state->time_s = time_s;
+    if (state->solver.fluid)
+        return water_fill_solved(s, state, time_s, info, error, error_size);
     if (!shot_blame_input(
             s, particle_sequence_at(state->source.sequence, state->time_s, &samples, &info->count, error, error_size)))
         return false;
@@ -158,20 +164,35 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     return true;
 }
 
-virga_particle_gpu *water_copy_particles(const shot *s, const water_state *state, uint32_t *count, char *error,
-                                         size_t error_size)
+/* Those of the solver, or those of files once more. */
+static bool count_particles(water_state *state, const particle_sample **samples, uint32_t *count, char *error,
+                            size_t error_size)
 {
-    const particle_sample *samples;
-    float matrix[9];
-    if (!particle_sequence_at(state->source.sequence, state->time_s, &samples, count, error, error_size))
-        return NULL;
+    *count = state->solver.count;
+    if (!state->solver.fluid &&
+        !particle_sequence_at(state->source.sequence, state->time_s, samples, count, error, error_size))
+        return false;
     *count = *count < state->max_particles ? *count : state->max_particles;
+    return true;
+}
+
+virga_particle_gpu *water_copy_particles(shot *s, water_state *state, uint32_t *count, char *error, size_t error_size)
+{
+    const particle_sample *samples = NULL;
+    float matrix[9];
+    if (!count_particles(state, &samples, count, error, error_size))
+        return NULL;
     virga_particle_gpu *particles = malloc(*count * sizeof *particles + 1);
     if (!particles) {
         host_fail(error, error_size, "no memory for %u particles", *count);
         return NULL;
     }
-    world_from_file(scene_water_of(s->scene), matrix);
-    copy_samples(matrix, samples, *count, particles);
+    if (samples) {
+        world_from_file(scene_water_of(s->scene), matrix);
+        copy_samples(matrix, samples, *count, particles);
+    } else if (!water_copy_solved(s, state, particles, error, error_size)) {
+        free(particles);
+        return NULL;
+    }
     return particles;
 }

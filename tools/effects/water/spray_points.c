@@ -112,6 +112,7 @@ static bool read_foam(shot *s, void *state, void **rows, uint32_t *count, char *
 
 const tool_points water_foam_points = {
     .name = "water_foam",
+    .next = &water_particle_points,
     .comment = "virga water: foam; metres and seconds; kind 0 is spray, 1 foam on the surface, 2 bubbles",
     .help = "spray, foam and bubbles made by the water",
     TOOL_POINTS(foam_columns, bubbles, record_foam, read_foam),

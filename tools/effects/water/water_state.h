@@ -6,11 +6,22 @@
 #include "particle_sequence.h"
 #include "water.h"
 
+/* Water that is simulated: particles and their two newest states on the host, for sub-frames and statistics. */
+typedef struct water_solver {
+    virga_fluid *fluid;      /* NULL: particles are of files */
+    host_buffer before, now; /* virga_particle_gpu, after the last step but one and after the last */
+    double before_s, now_s;  /* their times, as frame_s */
+    uint32_t count;          /* particles after the newest step */
+    uint64_t step_frame;     /* device frame of the newest step */
+    shot_read densities;     /* of particles, for statistics */
+} water_solver;
+
 /* What the files say of the simulation, in metres. */
 typedef struct water_source {
     particle_sequence *sequence;
-    uint32_t most;      /* particles of the fullest of the files that were read */
-    double extent_m[3]; /* of the box around the particles of these files */
+    uint32_t most;       /* particles of the fullest of the files that were read */
+    uint32_t most_cells; /* (solver) of its grid */
+    double extent_m[3];  /* of the box around the particles of these files */
     double spacing_m;
     bool has_ids, has_velocity;
 } water_source;
@@ -18,6 +29,7 @@ typedef struct water_source {
 typedef struct water_state {
     virga_water *water; /* NULL: none */
     water_source source;
+    water_solver solver;
     uint32_t max_particles; /* for which there is room */
     host_buffer particles;  /* HOST_FRAMES parts of max_particles */
     double frame_s, time_s; /* of the files, in the newest frame of the shot and in the newest step */
@@ -37,14 +49,50 @@ bool water_open_source(const scene_file *scene, water_source *source, char *erro
 bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
                           size_t error_size);
 
+/* ---- the solver */
+
+extern const scene_group water_solver_group;
+
+/* Whether a scene has one. */
+bool water_is_solved(const scene_file *scene);
+
+/* Checks what ranges of single values can not express. */
+bool water_check_solver(const scene_file *scene, char *error, size_t error_size);
+
+/* Particles of a box along an axis, as the library counts them. */
+double water_box_particles(const scene_solver *from, const scene_solver_box *box);
+
+/* What the scene says of the simulation. */
+void water_describe_solver(const scene_file *scene, water_source *source);
+
+bool water_open_solver(shot *s, water_state *state, char *error, size_t error_size);
+void water_close_solver(shot *s, water_state *state);
+
+/* Moves the water on to a time by `dt_s`. */
+bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double frame_s, double dt_s, char *error,
+                       size_t error_size);
+
+/* Records the copy of what statistics need, after the step of the simulation. */
+bool water_read_solver(shot *s, water_state *state, VkCommandBuffer cmd, char *error, size_t error_size);
+
+/* Fills the particles of a step at a time within the newest step of the solver. */
+bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
+                       size_t error_size);
+
+/* Copies them at state->time_s, to solver.count particles. */
+bool water_copy_solved(shot *s, water_state *state, virga_particle_gpu *particles, char *error, size_t error_size);
+
+void water_write_solver_stats(shot *s, water_state *state, jsonl *stats);
+
+/* ---- */
+
 /* The newest statistics, if they are those of the newest step. */
 bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stats);
 
 /* The particles of the newest step once more, needs free(). NULL: see `error`. */
-virga_particle_gpu *water_copy_particles(const shot *s, const water_state *state, uint32_t *count, char *error,
-                                         size_t error_size);
+virga_particle_gpu *water_copy_particles(shot *s, water_state *state, uint32_t *count, char *error, size_t error_size);
 
-extern const tool_points water_points, water_spray_points, water_foam_points;
+extern const tool_points water_points, water_spray_points, water_foam_points, water_particle_points;
 extern const tool_mesh water_surface_mesh;
 
 #endif

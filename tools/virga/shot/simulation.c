@@ -112,10 +112,20 @@ static bool fill_frame(shot *s, double time_s, virga_scene_frame *frame, char *e
     return true;
 }
 
+static bool record_before(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->before_step &&
+            !tool_effects[i]->before_step(s, s->states[i], cmd, time_s, dt_s, error, error_size))
+            return false;
+    return true;
+}
+
 bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size)
 {
     virga_scene_frame frame = {.dt_s = dt_s};
-    if (!fill_frame(s, time_s, &frame, error, error_size) || !shot_apply_settings(s, time_s, error, error_size) ||
+    if (!record_before(s, cmd, time_s, dt_s, error, error_size) || !fill_frame(s, time_s, &frame, error, error_size) ||
+        !shot_apply_settings(s, time_s, error, error_size) ||
         !shot_ok(s, virga_scene_record(s->simulation, cmd, &frame), "stepping the simulation", error, error_size))
         return false;
     s->camera_time_s = time_s;

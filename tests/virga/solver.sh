@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Water that the program simulates: it falls as bodies do, keeps its volume, loses energy, and is the same in a frame
+# that is rendered alone; what is wrong with its keys is one line.
+# Usage: solver.sh VIRGA
+set -u
+virga=$1
+device=${VIRGA_TEST_DEVICE:-cpu}
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+}
+
+python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+# The first box stands on the floor, the second falls for 0.25 s beside it.
+cat >"$work/pool.yaml" <<'YAML'
+virga: 1
+camera: {keys: [{position_m: [0, 1, 3], look_at_m: [0, 0.3, 0]}]}
+frames: {fps: 20, first: 1, last: 8, size: [32, 32]}
+rain: {rate_mm_h: 0, max_drops: 1024, occlusion_size: 64}
+water:
+  position_m: [0.1, 0.2, 0.3]
+  max_foam: 0
+  spray_density: 0
+  solver:
+    spacing_m: 0.05
+    walls: {low_m: [-0.6, 0, -0.2], high_m: [0.6, 1, 0.2]}
+    boxes:
+      - {low_m: [-0.6, 0, -0.2], high_m: [-0.1, 0.4, 0.2]}
+      - {low_m: [0.3, 0.4, -0.1], high_m: [0.5, 0.6, 0.1], velocity_m_s: [0, 0.2, 0]}
+YAML
+
+# render FOLDER OPTION...
+render() {
+    local folder=$work/$1
+    shift
+    timeout 120 "$virga" render "$work/pool.yaml" -o "$folder" --device "$device" --points --stats "$@" \
+        >"$work/log" 2>&1 || { cat "$work/log"; fail "render $*"; }
+    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
+}
+
+render all --frames 1-5
+python3 "$here/check_solver.py" "$work/all" 20 1-5 || fail "water in all frames"
+render alone --frames 4 --samples 2
+cmp "$work/all/water_particles.0004.ply" "$work/alone/water_particles.0004.ply" || fail "frame 4 alone is another one"
+VIRGA_VALIDATE=0 render late --frames 5 --set water.start_s=0.1
+python3 "$here/check_solver.py" "$work/late" 20 5 0.1 || fail "water that begins to move later"
+
+# Its particles are files for water.files.
+"$virga" check "$work/pool.yaml" --set "water={files: $work/all/water_particles.%04d.ply, spacing_m: 0.05}" \
+    >"$work/log" 2>&1 || { cat "$work/log"; fail "its particles as files"; }
+grep -q 'particles .*5 files, 0.2 s, up to 704 particles with velocity and with ids' "$work/log" ||
+    { cat "$work/log"; fail "its particles as files"; }
+
+# expect WHAT OPTION...: the check refuses, in one line that has WHAT.
+expect() {
+    local what=$1 said
+    shift
+    said=$(timeout 60 "$virga" check "$work/pool.yaml" "$@" 2>&1 >"$work/out")
+    [ $? = 2 ] && [ "$(wc -l <<<"$said")" = 1 ] && grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
+}
+said=$("$virga" check "$work/pool.yaml" 2>&1) || fail "check of a good scene"
+grep -q 'water .*704 particles of 0.05 m in a box of 1.2 x 1 x 0.4 m' <<<"$said" || fail "check says: $said"
+expect 'water.solver.spacing_m: expected a number from 0.0001 to 10' --set water.solver.spacing_m=0
+expect 'water.solver.boxes.0.high_m: expected at most walls.high_m (0.6) along x, got 0.7' \
+    --set 'water.solver.boxes.0.high_m=[0.7, 0.4, 0.2]'
+expect 'water.solver.boxes.0.low_m: expected at least walls.low_m (0) along y, got -0.1' \
+    --set 'water.solver.boxes.0.low_m=[-0.6, -0.1, -0.2]'
+expect 'water.solver.boxes.0.high_m: expected at least half a spacing (0.025) above low_m (-0.6) along x, got -0.6' \
+    --set 'water.solver.boxes.0.high_m=[-0.6, 0.4, 0.2]'
+expect 'water.solver.walls.high_m: expected at least 4 spacings (0.2) above low_m (-0.2) along z, got -0.15' \
+    --set 'water.solver.walls.high_m=[0.6, 1, -0.15]'
+expect 'water.solver.boxes: expected water of 1 to 2097152 particles, got 0' --set 'water.solver.boxes=[]'
+expect 'water.solver.spacing_m: expected a spacing with which the walls have at most 16777216 cells' \
+    --set water.solver.spacing_m=0.0005
+expect 'water.solver: expected none, as files is there' --set "water.files=$work/all/water_particles.%04d.ply"
+expect 'water.rotation_deg: expected [0, 0, 0], as solver is there' --set 'water.rotation_deg=[0, 90, 0]'
+expect 'water.spacing_m: expected 0, as solver.spacing_m is there, got 0.1' --set water.spacing_m=0.1
+expect 'water.solver.max_substeps: expected a whole number from 1 to 64' --set water.solver.max_substeps=65
+
+[ $failures = 0 ] && echo "water is simulated"
+exit $((failures > 0))

@@ -1,0 +1,253 @@
+/* solver.c - water that is simulated: created from a scene, stepped with its frames, and read at any time within the
+ * newest step. */
+#include "water_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- create and destroy */
+
+static bool set_fluid(shot *s, const water_state *state, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(s->scene)->solver;
+    virga_fluid_settings settings = virga_default_fluid_settings();
+    settings.spacing_m = (float)from->spacing_m;
+    settings.viscosity_m2_s = (float)from->viscosity_m2_s;
+    settings.cfl = (float)from->cfl;
+    settings.solver_error = (float)from->solver_error;
+    for (int axis = 0; axis < 3; axis++) {
+        settings.low_m[axis] = (float)from->walls.low_m[axis];
+        settings.high_m[axis] = (float)from->walls.high_m[axis];
+        settings.gravity_m_s2[axis] = (float)from->gravity_m_s2[axis];
+    }
+    return shot_ok(s, virga_fluid_set(state->solver.fluid, &settings), "setting water.solver", error, error_size);
+}
+
+static bool add_boxes(shot *s, const water_state *state, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(s->scene)->solver;
+    for (uint32_t i = 0; i < from->box_count; i++) {
+        virga_fluid_block block;
+        for (int axis = 0; axis < 3; axis++) {
+            block.low_m[axis] = (float)from->boxes[i].low_m[axis];
+            block.high_m[axis] = (float)from->boxes[i].high_m[axis];
+            block.velocity_m_s[axis] = (float)from->boxes[i].velocity_m_s[axis];
+        }
+        if (!shot_ok(s, virga_fluid_add(state->solver.fluid, &block), "adding water", error, error_size))
+            return false;
+    }
+    return true;
+}
+
+static bool create_fluid(shot *s, water_state *state, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(s->scene)->solver;
+    virga_fluid_def def = virga_default_fluid_def();
+    def.max_particles = state->source.most < 64 ? 64 : state->source.most;
+    def.max_cells = state->source.most_cells;
+    def.max_substeps = from->max_substeps;
+    def.max_iterations = from->max_iterations;
+    const virga_result result = virga_fluid_create(s->context, &def, &state->solver.fluid);
+    if (!shot_ok(s, result, "creating the solver of water", error, error_size))
+        return false;
+    return result != VIRGA_DEGRADED ||
+           host_fail(error, error_size, "water.solver: no room for its particles: %s", s->warning);
+}
+
+static bool create_copies(shot *s, water_state *state, char *error, size_t error_size)
+{
+    const VkDeviceSize size = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    return host_buffer_create(&s->device, size, usage, HOST_BUFFER_READBACK, "particles before", &state->solver.before,
+                              error, error_size) &&
+           host_buffer_create(&s->device, size, usage, HOST_BUFFER_READBACK, "particles now", &state->solver.now, error,
+                              error_size);
+}
+
+bool water_open_solver(shot *s, water_state *state, char *error, size_t error_size)
+{
+    return create_fluid(s, state, error, error_size) && set_fluid(s, state, error, error_size) &&
+           add_boxes(s, state, error, error_size) && create_copies(s, state, error, error_size);
+}
+
+void water_close_solver(shot *s, water_state *state)
+{
+    virga_fluid_destroy(&state->solver.fluid);
+    host_buffer_destroy(&s->device, &state->solver.before);
+    host_buffer_destroy(&s->device, &state->solver.now);
+    host_buffer_destroy(&s->device, &state->solver.densities.buffer);
+}
+
+/* ---- time */
+
+/* The newest state becomes the one before. */
+static void copy_states(const water_solver *solver, VkCommandBuffer cmd)
+{
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT, passes = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    const VkAccessFlags written = VK_ACCESS_TRANSFER_WRITE_BIT;
+    virga_fluid_buffer particles;
+    uint32_t count;
+    virga_fluid_particles(solver->fluid, &particles, &count);
+    const VkBufferCopy copy = {0, 0, (VkDeviceSize)count * sizeof(virga_particle_gpu)};
+    const VkBufferCopy newest = {particles.offset, 0, copy.size};
+    host_memory_barrier(cmd, copying, written, copying, written | VK_ACCESS_TRANSFER_READ_BIT);
+    vkCmdCopyBuffer(cmd, solver->now.buffer, solver->before.buffer, 1, &copy);
+    host_memory_barrier(cmd, copying, written, copying, written);
+    vkCmdCopyBuffer(cmd, particles.buffer, solver->now.buffer, 1, &newest);
+    host_memory_barrier(cmd, copying, written, VK_PIPELINE_STAGE_HOST_BIT | passes, VK_ACCESS_HOST_READ_BIT);
+}
+
+/* Before the water's time begins it stands still. */
+bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double frame_s, double dt_s, char *error,
+                       size_t error_size)
+{
+    water_solver *solver = &state->solver;
+    const double moving_s = fmax(frame_s, 0) - fmax(frame_s - dt_s, 0);
+    const virga_fluid_step_info info = {.dt_s = (float)fmin(fmax(moving_s, 0), 1)};
+    if (!set_fluid(s, state, error, error_size) ||
+        !shot_ok(s, virga_fluid_step(solver->fluid, cmd, &info), "stepping the solver of water", error, error_size))
+        return false;
+    const bool is_first = !solver->count;
+    virga_fluid_particles(solver->fluid, NULL, &solver->count);
+    copy_states(solver, cmd);
+    solver->before_s = is_first ? frame_s : solver->now_s;
+    solver->now_s = frame_s;
+    solver->step_frame = s->device.frame;
+    return true;
+}
+
+/* ---- particles at a time */
+
+/* As mix_curve in tools/io/particle_pair.c; `s` of the way from a to b. Where a slot has got another particle, that
+ * moves evenly. */
+static void mix(const virga_particle_gpu *a, const virga_particle_gpu *b, double h, double s, virga_particle_gpu *out)
+{
+    const bool same = a->id == b->id && a->share > 0;
+    *out = *b;
+    for (int axis = 0; axis < 3; axis++) {
+        const double pa = (double)a->position[axis], pb = (double)b->position[axis];
+        const double va = (double)a->velocity[axis], vb = (double)b->velocity[axis];
+        const double up = s * s * (3 - 2 * s), rise = 6 * s * (1 - s) / h;
+        out->position[axis] =
+            (float)(same ? pa + up * (pb - pa) + s * (1 - s) * h * ((1 - s) * va - s * vb) : pb - (1 - s) * h * vb);
+        if (same)
+            out->velocity[axis] = (float)(rise * (pb - pa) + (1 - s) * (1 - 3 * s) * va + s * (3 * s - 2) * vb);
+    }
+}
+
+static bool wait_for_states(shot *s, const water_solver *solver, char *error, size_t error_size)
+{
+    if (!host_wait(&s->device, error, error_size))
+        return false;
+    host_buffer_invalidate(&s->device, &solver->before);
+    host_buffer_invalidate(&s->device, &solver->now);
+    return true;
+}
+
+static bool mix_all(shot *s, const water_solver *solver, double time_s, virga_particle_gpu *out, char *error,
+                    size_t error_size)
+{
+    const virga_particle_gpu *before = solver->before.mapped, *now = solver->now.mapped;
+    const double h = solver->now_s - solver->before_s, part = h > 0 ? fmax((time_s - solver->before_s) / h, 0) : 1;
+    if (!wait_for_states(s, solver, error, error_size))
+        return false;
+    if (part >= 1)
+        memcpy(out, now, solver->count * sizeof *out);
+    for (uint32_t i = 0; part < 1 && i < solver->count; i++)
+        mix(&before[i], &now[i], h, part, &out[i]);
+    return true;
+}
+
+/* The newest state is on the device; what was before is not. */
+bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
+                       size_t error_size)
+{
+    const water_solver *solver = &state->solver;
+    const scene_water *from = scene_water_of(s->scene);
+    const bool newest = time_s >= solver->now_s;
+    info->time_s = time_s;
+    memcpy(info->origin_m, from->position_m, sizeof info->origin_m);
+    info->count = solver->count;
+    if (newest) {
+        virga_fluid_buffer particles;
+        virga_fluid_particles(solver->fluid, &particles, NULL);
+        info->particles = particles.buffer;
+        info->offset = particles.offset;
+    } else {
+        info->particles = state->particles.buffer;
+        info->offset = s->device.frame % HOST_FRAMES * state->max_particles * sizeof(virga_particle_gpu);
+        if (!mix_all(s, solver, time_s, (void *)((char *)state->particles.mapped + info->offset), error, error_size))
+            return false;
+    }
+    state->count = solver->count;
+    state->volume_m3 = solver->count * from->volume * pow(state->source.spacing_m, 3);
+    state->step_frame = s->device.frame;
+    return true;
+}
+
+bool water_copy_solved(shot *s, water_state *state, virga_particle_gpu *particles, char *error, size_t error_size)
+{
+    return mix_all(s, &state->solver, state->time_s, particles, error, error_size);
+}
+
+/* ---- statistics */
+
+bool water_read_solver(shot *s, water_state *state, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    virga_water_buffer densities;
+    virga_water_densities(state->water, &densities);
+    return shot_record_read(s, cmd, densities.buffer, densities.offset, densities.size, &state->solver.densities, error,
+                            error_size);
+}
+
+/* Energy of the water (J), with the floor of the walls at no height. */
+static void write_energy(const water_solver *solver, const scene_solver *from, jsonl *stats)
+{
+    const virga_particle_gpu *now = solver->now.mapped;
+    const double mass_kg = 1000 * pow(from->spacing_m, 3);
+    double kinetic = 0, potential = 0;
+    for (uint32_t i = 0; i < solver->count; i++) {
+        for (int axis = 0; axis < 3 && now[i].share > 0; axis++) {
+            const double v = (double)now[i].velocity[axis];
+            kinetic += 0.5 * v * v;
+            potential -= from->gravity_m_s2[axis] * ((double)now[i].position[axis] - from->walls.low_m[axis]);
+        }
+    }
+    jsonl_number(stats, "kinetic_j", mass_kg * kinetic);
+    jsonl_number(stats, "potential_j", mass_kg * potential);
+}
+
+/* How much too dense the water is: the mean over its particles of what is above 1. So much of its volume is lost at
+ * most; noise of the particles is in it. */
+static void write_volume_error(shot *s, const water_solver *solver, jsonl *stats)
+{
+    const float *densities = solver->densities.buffer.mapped;
+    double above = 0;
+    if (!densities || !solver->count)
+        return;
+    host_buffer_invalidate(&s->device, &solver->densities.buffer);
+    for (uint32_t i = 0; i < solver->count; i++)
+        above += fmax((double)densities[i] - 1, 0);
+    jsonl_number(stats, "volume_error", above / solver->count);
+}
+
+void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)
+{
+    const water_solver *solver = &state->solver;
+    char ignored[256];
+    virga_fluid_stats now;
+    virga_fluid_stats_get(solver->fluid, &now);
+    if (!wait_for_states(s, solver, ignored, sizeof ignored))
+        return;
+    jsonl_begin_object(stats, "solver");
+    jsonl_uint64(stats, "particles", now.particles);
+    jsonl_uint64(stats, "moved", now.moved);
+    jsonl_uint64(stats, "substeps", now.substeps);
+    jsonl_uint64(stats, "iterations", now.iterations);
+    jsonl_number(stats, "solver_error", (double)now.solver_error);
+    jsonl_number(stats, "max_speed_m_s", (double)now.max_speed_m_s);
+    write_energy(solver, &scene_water_of(s->scene)->solver, stats);
+    write_volume_error(s, solver, stats);
+    jsonl_end(stats);
+}

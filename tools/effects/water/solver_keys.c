@@ -1,0 +1,163 @@
+/* solver_keys.c - keys of water.solver in scene files, and what one value alone does not show. */
+#include "water_state.h"
+
+#include "scene_rows.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define MAX_SOLVER_M  10000.0 /* of positions, as in virga/fluid.h */
+#define MAX_PARTICLES 2097152
+#define MAX_CELLS     16777216
+#define MIN_SPACINGS  4 /* of a side of the box */
+
+/* Ranges and defaults of what the library has are its own: virga/fluid.h. */
+static const scene_row wall_rows[] = {
+    NUMBER(scene_solver_walls, low_m, -MAX_SOLVER_M, MAX_SOLVER_M, "[-0.5, 0, -0.5]", RESTARTS,
+           "lower corner of the box that the water is in; walls let water slide"),
+    NUMBER(scene_solver_walls, high_m, -MAX_SOLVER_M, MAX_SOLVER_M, "[0.5, 1, 0.5]", RESTARTS, "its upper corner"),
+};
+static const scene_group wall_group = SCENE_GROUP(scene_solver_walls, wall_rows);
+
+static const scene_row box_rows[] = {
+    NUMBER(scene_solver_box, low_m, -MAX_SOLVER_M, MAX_SOLVER_M, NULL, RESTARTS, "lower corner of water at the start"),
+    NUMBER(scene_solver_box, high_m, -MAX_SOLVER_M, MAX_SOLVER_M, NULL, RESTARTS,
+           "upper corner; sides are rounded to whole spacings"),
+    NUMBER(scene_solver_box, velocity_m_s, -1000, 1000, "[0, 0, 0]", RESTARTS, "of this water at the start"),
+};
+static const scene_group box_group = SCENE_GROUP(scene_solver_box, box_rows);
+
+static const scene_row solver_rows[] = {
+    NUMBER(scene_solver, spacing_m, 0.0001, 10, "0.02", RESTARTS,
+           "distance of particles at rest; half of it: eight times as many, and twice the substeps"),
+    GROUP(scene_solver, walls, &wall_group, RESTARTS, "the container, relative to water.position_m as all below"),
+    LIST(scene_solver, boxes, box_count, &box_group, 0, SCENE_SOLVER_MAX_BOXES, "[]", "water at the start"),
+    NUMBER(scene_solver, gravity_m_s2, -1000, 1000, "[0, -9.81, 0]", LIVE,
+           "acceleration; for a container that moves: of gravity less its own"),
+    NUMBER(scene_solver, viscosity_m2_s, 0, 10, "0.001", LIVE,
+           "kinematic; that of water, 1e-6, is less than particles show; more is calmer"),
+    NUMBER(scene_solver, cfl, 0.05, 1, "0.4", LIVE, "how far a particle may move in a substep, in spacings"),
+    NUMBER(scene_solver, solver_error, 0.000001, 0.01, "0.0001", LIVE,
+           "mean error of the density at which iterations end"),
+    WHOLE(scene_solver, max_substeps, 1, 64, "32", RESTARTS,
+          "of a frame; each takes 0.5 ms on two cores even if it is not needed"),
+    WHOLE(scene_solver, max_iterations, 1, 100, "20", RESTARTS, "of the solver in a substep"),
+};
+const scene_group water_solver_group = SCENE_GROUP(scene_solver, solver_rows);
+
+bool water_is_solved(const scene_file *scene)
+{
+    return scene_water_of(scene)->solver.spacing_m > 0;
+}
+
+/* ---- sizes */
+
+double water_box_particles(const scene_solver *from, const scene_solver_box *box)
+{
+    double count = 1;
+    for (int axis = 0; axis < 3; axis++)
+        count *= floor((box->high_m[axis] - box->low_m[axis]) / from->spacing_m + 0.5);
+    return count;
+}
+
+static double count_particles(const scene_solver *from)
+{
+    double count = 0;
+    for (uint32_t i = 0; i < from->box_count; i++)
+        count += water_box_particles(from, &from->boxes[i]);
+    return count;
+}
+
+/* Of the neighbour grid: a cell is two spacings wide, and there are four more than the box has. */
+static double count_cells(const scene_solver *from)
+{
+    double cells = 1;
+    for (int axis = 0; axis < 3; axis++)
+        cells *= floor((from->walls.high_m[axis] - from->walls.low_m[axis]) / (2 * from->spacing_m)) + 6;
+    return cells;
+}
+
+void water_describe_solver(const scene_file *scene, water_source *source)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    *source = (water_source){.most = (uint32_t)count_particles(from),
+                             .most_cells = (uint32_t)fmin(fmax(count_cells(from), 4096), MAX_CELLS),
+                             .spacing_m = from->spacing_m,
+                             .has_ids = true,
+                             .has_velocity = true};
+    for (int axis = 0; axis < 3; axis++)
+        source->extent_m[axis] = from->walls.high_m[axis] - from->walls.low_m[axis];
+}
+
+/* ---- checks */
+
+static bool check_box(const scene_file *scene, uint32_t index, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    const scene_solver_box *box = &from->boxes[index];
+    char key[96];
+    for (int axis = 0; axis < 3; axis++) {
+        snprintf(key, sizeof key, "water.solver.boxes.%u.high_m", index);
+        if (box->high_m[axis] - box->low_m[axis] < 0.5 * from->spacing_m)
+            return scene_file_refuse(scene, key, error, error_size,
+                                     "expected at least half a spacing (%g) above low_m (%g) along %c, got %g",
+                                     0.5 * from->spacing_m, box->low_m[axis], "xyz"[axis], box -> high_m[axis]);
+        if (box->high_m[axis] > from->walls.high_m[axis] + 1e-6)
+            return scene_file_refuse(scene, key, error, error_size,
+                                     "expected at most walls.high_m (%g) along %c, got %g", from->walls.high_m[axis],
+                                     "xyz"[axis], box -> high_m[axis]);
+        snprintf(key, sizeof key, "water.solver.boxes.%u.low_m", index);
+        if (box->low_m[axis] < from->walls.low_m[axis] - 1e-6)
+            return scene_file_refuse(scene, key, error, error_size,
+                                     "expected at least walls.low_m (%g) along %c, got %g", from->walls.low_m[axis],
+                                     "xyz"[axis], box -> low_m[axis]);
+    }
+    return true;
+}
+
+static bool check_walls(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    for (int axis = 0; axis < 3; axis++)
+        if (from->walls.high_m[axis] - from->walls.low_m[axis] < MIN_SPACINGS * from->spacing_m)
+            return scene_file_refuse(scene, "water.solver.walls.high_m", error, error_size,
+                                     "expected at least %d spacings (%g) above low_m (%g) along %c, got %g",
+                                     MIN_SPACINGS, MIN_SPACINGS * from->spacing_m, from->walls.low_m[axis], "xyz"[axis],
+                                     from -> walls.high_m[axis]);
+    return count_cells(from) <= MAX_CELLS ||
+           scene_file_refuse(scene, "water.solver.spacing_m", error, error_size,
+                             "expected a spacing with which the walls have at most %d cells of two spacings, got "
+                             "%.0f",
+                             MAX_CELLS, count_cells(from));
+}
+
+/* What describes files has no meaning for a solver. */
+static bool check_beside(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    if (from->files)
+        return scene_file_refuse(scene, "water.solver", error, error_size, "expected none, as files is there");
+    if (from->rotation_deg[0] != 0 || from->rotation_deg[1] != 0 || from->rotation_deg[2] != 0)
+        return scene_file_refuse(scene, "water.rotation_deg", error, error_size,
+                                 "expected [0, 0, 0], as solver is there");
+    if (from->spacing_m > 0)
+        return scene_file_refuse(scene, "water.spacing_m", error, error_size,
+                                 "expected 0, as solver.spacing_m is there, got %g", from->spacing_m);
+    return true;
+}
+
+bool water_check_solver(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    if (!water_is_solved(scene))
+        return true;
+    if (!check_beside(scene, error, error_size) || !check_walls(scene, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < from->box_count; i++)
+        if (!check_box(scene, i, error, error_size))
+            return false;
+    const double count = count_particles(from);
+    return (count >= 1 && count <= MAX_PARTICLES) ||
+           scene_file_refuse(scene, "water.solver.boxes", error, error_size,
+                             "expected water of 1 to %d particles, got %.0f", MAX_PARTICLES, count);
+}
