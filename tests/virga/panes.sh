@@ -204,7 +204,7 @@ refuses "--plate: expected one number as in plate.%04d.exr" --plate "$work/plate
 refuses "--plate: expected one number" --plate "$work/%d/plate.%d.exr"
 refuses "4 pictures in $work/footage, none for frame 5" --frames 5 --plate "$work/footage"
 mkdir "$work/nothing"
-refuses "--plate: no EXR pictures in the folder" --plate "$work/nothing"
+refuses "--plate: no EXR, PNG, JPEG or TIFF pictures in the folder" --plate "$work/nothing"
 refuses "glass.0.advancing_deg: expected at least the receding angle (20), got 10" --set glass.0.kind=dirty \
     --set glass.0.advancing_deg=10
 refuses "glass.0.mesh: no mesh or material of the scene has 'sail' in its name" --set glass.0.shape=mesh \

@@ -1,4 +1,5 @@
 /* scene_core.c - the keys of scene files that belong to no effect: models, sky, lights, camera, frames. */
+#include "scene_footage.h"
 #include "scene_rows.h"
 
 #include <math.h>
@@ -116,6 +117,7 @@ static const scene_row core_rows[] = {
     GROUP(scene_file, camera, &camera_group, RESTARTS, "the camera and its path"),
     GROUP(scene_file, frames, &frames_group, RESTARTS, "which frames there are"),
     GROUP(scene_file, preview, &preview_group, LIVE, "how previews are shown"),
+    GROUP(scene_file, footage, &scene_footage_group, RESTARTS, "what the pictures of a plate mean, see --plate"),
 };
 
 /* ---- the lens ------------------------------------------------------------------------------------------------- */

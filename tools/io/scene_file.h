@@ -98,6 +98,11 @@ typedef struct scene_preview {
     double exposure_ev;
 } scene_preview;
 
+/* What the pictures of a plate mean, see --plate. */
+typedef struct scene_footage {
+    uint32_t curve; /* transfer_curve */
+} scene_footage;
+
 /* The keys that one effect adds, see scene_schema.h. */
 typedef struct scene_section scene_section;
 typedef struct scene_format scene_format;
@@ -112,6 +117,7 @@ typedef struct scene_file {
     scene_camera camera;
     scene_frames frames;
     scene_preview preview;
+    scene_footage footage;
     uint64_t hash;                 /* see scene_file_hash */
     struct scene_document *source; /* for scene_file_refuse */
     scene_format *format;          /* the format that it was loaded with */

@@ -9,6 +9,7 @@
 #include "options.h"
 #include "progress.h"
 #include "shot/checkpoint.h"
+#include "shot/plate.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ static const option_row rows[] = {
      "weather stay at their last keys. The scene's frames.preroll_s are simulated before its first frame. "
      "Default: the scene's frames",
      false},
-    {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
+    {"--size", 0, "WxH|plate", "picture size in pixels, or that of the plate. Default: the scene's", false},
     {"--samples", 0, "N",
      "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
      "Default 1; 16 for film",
@@ -40,8 +41,13 @@ static const option_row rows[] = {
     {"--stats", 0, NULL, "also write stats.jsonl, one object per frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is installed, preview.mp4", false},
     {"--plate", 0, "PATTERN",
-     "footage that replaces the drawn scene: EXR pictures numbered by frame, as plate.%04d.exr, a folder with one "
-     "picture per frame of the scene, sorted by name, or one picture for all frames. Any size",
+     "footage that replaces the drawn scene: EXR, PNG, JPEG or TIFF pictures numbered by frame, as plate.%04d.exr, a "
+     "folder with one picture per frame of the scene, sorted by name, or one picture for all frames. Any size. "
+     "footage.curve of the scene is their transfer curve",
+     false},
+    {"--picture", 0, "KIND",
+     "also write the beauty as picture.%04d.png, .jpg or .tif, with that curve. KIND is same (as the plate), png, "
+     "png16, jpg, tif, tif16, tif32 or none. 8 bits are dithered. Default: same, where there is a plate that is no EXR",
      false},
     {"--resume", 0, NULL,
      "render only the frames that are missing. A folder is refused where its frames have another scene, seed, "
@@ -96,6 +102,7 @@ typedef struct render_job {
     shot_options how;
     const char *directory, *task; /* task: of --claim, or NULL */
     uint32_t frames[2], layers;
+    picture_format picture; /* bits 0: none */
     bool points, meshes, stats, preview, resume, simulate;
     jsonl stats_file;
     bool stats_open;
@@ -153,6 +160,31 @@ static bool load_scene(render_job *job)
     return frame_layers_narrow(job->scene, &job->layers);
 }
 
+static bool fail(render_job *job)
+{
+    return options_complain("render", "%s", job->error);
+}
+
+/* The plate, and what follows from it: the pictures' size and format. */
+static bool read_plate(render_job *job, uint32_t size[2])
+{
+    picture_format format;
+    uint32_t plate_size[2];
+    const char *plate = options_value(&job->parsed, "--plate"), *word = options_value(&job->parsed, "--size");
+    const bool of_plate = word && !strcmp(word, "plate");
+    job->how.plate = plate;
+    if (of_plate && !plate)
+        return options_complain("render", "--size plate: expected a --plate");
+    if (!of_plate && !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size))
+        return false;
+    if (plate &&
+        !plate_peek(plate, job->scene->frames.first, job->frames, &format, plate_size, job->error, sizeof job->error))
+        return fail(job);
+    if (of_plate)
+        memcpy(size, plate_size, sizeof plate_size);
+    return frame_picture_parse(options_value(&job->parsed, "--picture"), plate ? &format : NULL, &job->picture);
+}
+
 static bool read_ranges(render_job *job)
 {
     const scene_frames *frames = &job->scene->frames;
@@ -161,8 +193,7 @@ static bool read_ranges(render_job *job)
     job->frames[1] = frames->last;
     job->how.samples = 1;
     if (!options_pair(&job->parsed, "--frames", '-', true, frames->first, 999999, job->frames) ||
-        !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size) ||
-        !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples) ||
+        !read_plate(job, size) || !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples) ||
         !options_uint(&job->parsed, "--water-velocity", 1, 100, &job->how.water_velocity) ||
         !options_uint(&job->parsed, "--checkpoint-every", 1, 999999, &job->how.checkpoint_every))
         return false;
@@ -175,15 +206,9 @@ static bool read_ranges(render_job *job)
     job->how.checkpoints = job->directory;
     job->how.points = job->points;
     job->how.stats = job->stats;
-    job->how.plate = options_value(&job->parsed, "--plate");
     memcpy(job->how.frames, job->frames, sizeof job->frames);
     job->how.device = options_value(&job->parsed, "--device");
     return true;
-}
-
-static bool fail(render_job *job)
-{
-    return options_complain("render", "%s", job->error);
 }
 
 /* Makes a folder and those above it. */
@@ -234,6 +259,7 @@ static resume_request request_of(const render_job *job)
                             .layers = job->layers,
                             .plate = job->how.plate,
                             .water_velocity = job->how.water_velocity,
+                            .picture = job->picture,
                             .points = job->points,
                             .meshes = job->meshes,
                             .preview = job->preview,
@@ -301,6 +327,7 @@ static bool write_frame(render_job *job, uint32_t frame)
     virga_frame_completed(s->context, s->device.completed);
     if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
         (job->meshes && !frame_write_meshes(s, job->directory, frame, error, size)) ||
+        (job->picture.bits && !frame_write_picture(s, job->directory, frame, job->picture, error, size)) ||
         (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
         (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
         !frame_write_exr(s, &camera, job->directory, frame, job->layers, error, size))

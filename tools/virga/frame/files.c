@@ -60,8 +60,7 @@ static float over(const float *layer, size_t c, float below)
     return layer[c] + below * (1 - layer[3]);
 }
 
-/* Layers over the plate. */
-static void compose(const shot *s, float *beauty)
+void frame_compose(const shot *s, float *beauty)
 {
     const size_t values = (size_t)s->frame.width * s->frame.height * 4;
     memcpy(beauty, s->frame.color, values * sizeof *beauty);
@@ -108,7 +107,7 @@ bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32
         free(distance);
         return host_fail(error, error_size, "no memory for a frame of %u x %u", s->frame.width, s->frame.height);
     }
-    compose(s, beauty);
+    frame_compose(s, beauty);
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
     exr_parts parts = {.count = 0};
@@ -146,7 +145,7 @@ bool frame_save_preview(shot *s, const char *path, char *error, size_t error_siz
     if (!written)
         host_fail(error, error_size, "no memory for a preview of %u x %u", s->frame.width, s->frame.height);
     if (written) {
-        compose(s, beauty);
+        frame_compose(s, beauty);
         png_from_linear(beauty, pixels, (float)s->scene->preview.exposure_ev, rgb);
         written = png_write(path, s->frame.width, s->frame.height, 3, rgb, error, error_size);
     }

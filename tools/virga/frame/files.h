@@ -3,6 +3,7 @@
 #define VIRGA_TOOL_FRAME_FILES_H
 
 #include "jsonl.h"
+#include "picture.h"
 #include "shot/shot.h"
 
 /* Writes s->frame as DIR/frame.%04u.exr. */
@@ -16,6 +17,18 @@ bool frame_save_preview(shot *s, const char *path, char *error, size_t error_siz
 
 /* Writes DIR/preview.%04u.png. */
 bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+
+/* The beauty: layers over the plate, linear RGBA. */
+void frame_compose(const shot *s, float *beauty);
+
+/* Writes the beauty as DIR/picture.%04u.png, .jpg or .tif, with the transfer curve of the plate: picture.c. */
+bool frame_write_picture(shot *s, const char *directory, uint32_t frame, picture_format format, char *error,
+                         size_t error_size);
+void frame_picture_path(const char *directory, picture_kind kind, uint32_t frame, char *path, size_t size);
+
+/* Reads the value of --picture, `word` (NULL: not given). `plate` is the format of the plate, NULL without one.
+ * to->bits is 0 where no picture is to be written. Prints one line and returns false for a wrong word. */
+bool frame_picture_parse(const char *word, const picture_format *plate, picture_format *to);
 
 /* Point caches of a scene's frame: their names, without frame and ending; NULL behind the last. */
 const char *frame_points_name(const scene_file *scene, uint32_t index);

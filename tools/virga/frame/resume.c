@@ -67,6 +67,10 @@ static bool has_files(const resume_request *request, uint32_t frame)
     const char *name;
     snprintf(path, sizeof path, "%s/preview.%04u.png", request->directory, frame);
     bool has = !request->preview || has_file(path);
+    if (request->picture.bits) {
+        frame_picture_path(request->directory, request->picture.kind, frame, path, sizeof path);
+        has = has && has_file(path);
+    }
     for (uint32_t i = 0; request->points && (name = frame_points_name(request->scene, i)); i++) {
         frame_points_path(request->directory, name, frame, path, sizeof path);
         has = has && has_file(path);

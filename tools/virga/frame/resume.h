@@ -3,6 +3,7 @@
 #ifndef VIRGA_TOOL_RESUME_H
 #define VIRGA_TOOL_RESUME_H
 
+#include "picture.h"
 #include "scene_file.h"
 
 /* The frames that are to be in the folder at the end. */
@@ -13,6 +14,7 @@ typedef struct resume_request {
     uint32_t width, height, samples, layers;
     const char *plate;                   /* as given; NULL: none */
     uint32_t water_velocity;             /* percent; 0: none */
+    picture_format picture;              /* bits 0: none */
     bool points, meshes, preview, stats; /* the files beside frame.%04d.exr */
 } resume_request;
 

@@ -1,7 +1,6 @@
 /* plate.c - finds, reads and resamples the pictures of a plate. */
 #include "shot/plate.h"
 
-#include "exr.h"
 #include "host.h"
 
 #include <dirent.h>
@@ -14,10 +13,10 @@
 
 /* ---- which file */
 
-static bool ends_in_exr(const char *name)
+static bool is_picture(const char *name)
 {
-    const size_t length = strlen(name);
-    return length > 4 && name[0] != '.' && !strcmp(name + length - 4, ".exr");
+    picture_kind kind;
+    return name[0] != '.' && picture_kind_of(name, &kind);
 }
 
 static int by_name(const void *a, const void *b)
@@ -41,13 +40,13 @@ static bool list_folder(plate *p, char *error, size_t error_size)
     DIR *folder = opendir(p->pattern);
     bool listed = folder;
     for (struct dirent *entry; listed && (entry = readdir(folder));)
-        listed = !ends_in_exr(entry->d_name) || add_file(p, entry->d_name);
+        listed = !is_picture(entry->d_name) || add_file(p, entry->d_name);
     if (folder)
         closedir(folder);
     if (!listed)
         return host_fail(error, error_size, "--plate: cannot list the folder %s", p->pattern);
     if (!p->file_count)
-        return host_fail(error, error_size, "--plate: no EXR pictures in the folder %s", p->pattern);
+        return host_fail(error, error_size, "--plate: no EXR, PNG, JPEG or TIFF pictures in the folder %s", p->pattern);
     qsort(p->files, p->file_count, sizeof *p->files, by_name);
     return true;
 }
@@ -85,13 +84,11 @@ static bool name_of(const plate *p, uint32_t frame, char path[4096], char *error
     return true;
 }
 
-bool plate_open(plate *p, const char *pattern, uint32_t scene_first, const uint32_t frames[2], uint32_t width,
-                uint32_t height, char *error, size_t error_size)
+/* Finds out what the pattern is, and whether the pictures are there. */
+static bool find_pictures(plate *p, const uint32_t frames[2], char *error, size_t error_size)
 {
     struct stat about;
-    *p = (plate){.pattern = pattern, .first = scene_first, .loaded = UINT32_MAX, .width = width, .height = height};
-    if (!pattern)
-        return true;
+    const char *pattern = p->pattern;
     const bool folder = !stat(pattern, &about) && S_ISDIR(about.st_mode);
     if (folder ? !list_folder(p, error, error_size) : !check_pattern(p, error, error_size))
         return false;
@@ -102,6 +99,39 @@ bool plate_open(plate *p, const char *pattern, uint32_t scene_first, const uint3
         if (access(path, R_OK))
             return host_fail(error, error_size, "--plate: cannot read %s, for frame %u", path, frame);
     }
+    return true;
+}
+
+bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames[2], picture_format *format,
+                uint32_t size[2], char *error, size_t error_size)
+{
+    plate p = {.pattern = pattern, .first = scene_first};
+    char path[4096], reason[1024];
+    picture first = {.rgb = NULL};
+    bool read = find_pictures(&p, frames, error, error_size) && name_of(&p, frames[0], path, error, error_size);
+    if (read && !picture_read(path, &first, reason, sizeof reason))
+        read = host_fail(error, error_size, "--plate: %s", reason);
+    *format = first.format;
+    size[0] = first.width;
+    size[1] = first.height;
+    free(first.rgb);
+    plate_close(&p);
+    return read;
+}
+
+bool plate_open(plate *p, const char *pattern, transfer_curve curve, uint32_t scene_first, const uint32_t frames[2],
+                uint32_t width, uint32_t height, char *error, size_t error_size)
+{
+    *p = (plate){.pattern = pattern,
+                 .curve = curve,
+                 .first = scene_first,
+                 .loaded = UINT32_MAX,
+                 .width = width,
+                 .height = height};
+    if (!pattern)
+        return true;
+    if (!find_pictures(p, frames, error, error_size))
+        return false;
     p->rgba = malloc((size_t)width * height * 4 * sizeof *p->rgba);
     return p->rgba || host_fail(error, error_size, "no memory for a plate of %u x %u", width, height);
 }
@@ -171,16 +201,16 @@ static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t 
 bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
 {
     char path[4096], reason[1024];
-    uint32_t width, height;
-    float *rgb = NULL;
+    picture now;
     if (p->loaded == frame)
         return true;
     if (!name_of(p, frame, path, error, error_size))
         return false;
-    if (!exr_read_rgb(path, &width, &height, &rgb, NULL, reason, sizeof reason))
+    if (!picture_read(path, &now, reason, sizeof reason))
         return host_fail(error, error_size, "--plate: %s", reason);
-    const bool copied = copy_picture(p, path, rgb, width, height, error, error_size);
-    free(rgb);
+    picture_to_light(now.rgb, (size_t)now.width * now.height * 3, p->curve, now.format);
+    const bool copied = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size);
+    free(now.rgb);
     p->loaded = copied ? frame : UINT32_MAX;
     return copied;
 }

@@ -29,8 +29,8 @@ static bool open_plate(shot *s, char *error, size_t error_size)
     s->plate = calloc(1, sizeof *s->plate);
     if (!s->plate)
         return host_fail(error, error_size, "no memory for a plate");
-    return plate_open(s->plate, s->options.plate, s->scene->frames.first, s->options.frames, s->options.width,
-                      s->options.height, error, error_size) &&
+    return plate_open(s->plate, s->options.plate, s->scene->footage.curve, s->scene->frames.first, s->options.frames,
+                      s->options.width, s->options.height, error, error_size) &&
            plate_load(s->plate, s->options.frames[0], error, error_size);
 }
 

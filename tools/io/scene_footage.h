@@ -1,0 +1,9 @@
+/* scene_footage.h - the key `footage` of scene files. Internal; for scene_core.c. */
+#ifndef VIRGA_IO_SCENE_FOOTAGE_H
+#define VIRGA_IO_SCENE_FOOTAGE_H
+
+#include "scene_schema.h"
+
+extern const scene_group scene_footage_group;
+
+#endif

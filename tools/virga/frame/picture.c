@@ -1,0 +1,64 @@
+/* picture.c - the beauty of a frame in the format and with the transfer curve of the plate that it was made over. */
+#include "effect.h"
+#include "frame/files.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *word;
+    picture_format format;
+} words[] = {
+    {"png", {PICTURE_PNG, 8}},  {"png16", {PICTURE_PNG, 16}},  {"jpg", {PICTURE_JPEG, 8}},
+    {"tif", {PICTURE_TIFF, 8}}, {"tif16", {PICTURE_TIFF, 16}}, {"tif32", {PICTURE_TIFF, 32}},
+    {"none", {PICTURE_EXR, 0}},
+};
+
+bool frame_picture_parse(const char *word, const picture_format *plate, picture_format *to)
+{
+    *to = (picture_format){PICTURE_EXR, 0};
+    const bool of_plate = plate && plate->kind != PICTURE_EXR;
+    if (!word || !strcmp(word, "same")) {
+        if (word && !of_plate)
+            return options_complain("render", "--picture: 'same' needs a --plate of PNG, JPEG or TIFF");
+        if (of_plate)
+            *to = *plate;
+        return true;
+    }
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (!strcmp(word, words[i].word)) {
+            *to = words[i].format;
+            return !to->bits || picture_has_codecs() ||
+                   options_complain("render", "--picture: this program was built without OpenImageIO");
+        }
+    return options_complain("render", "--picture: expected same, png, png16, jpg, tif, tif16, tif32 or none, got '%s'",
+                            word);
+}
+
+void frame_picture_path(const char *directory, picture_kind kind, uint32_t frame, char *path, size_t size)
+{
+    snprintf(path, size, "%s/picture.%04u.%s", directory, frame, picture_ending(kind));
+}
+
+bool frame_write_picture(shot *s, const char *directory, uint32_t frame, picture_format format, char *error,
+                         size_t error_size)
+{
+    const size_t pixels = (size_t)s->frame.width * s->frame.height;
+    float *beauty = malloc(pixels * 4 * sizeof *beauty), *samples = malloc(pixels * 3 * sizeof *samples);
+    bool written = beauty && samples;
+    if (!written)
+        host_fail(error, error_size, "no memory for a frame of %u x %u", s->frame.width, s->frame.height);
+    if (written) {
+        const uint64_t seed = (uint64_t)tool_seed(s->scene) << 32 | frame;
+        char path[4096];
+        frame_compose(s, beauty);
+        picture_from_light(beauty, pixels, s->scene->footage.curve, format, seed, samples);
+        frame_picture_path(directory, format.kind, frame, path, sizeof path);
+        written = picture_write(path, format, s->frame.width, s->frame.height, samples, error, error_size);
+    }
+    free(beauty);
+    free(samples);
+    return written;
+}
