@@ -6,7 +6,7 @@
 #include "gpu/budget.h"
 
 #include "gpu/context.h"
-#include "gpu/effect.h"
+#include "gpu/effect_type.h"
 
 #include <stdio.h>
 

@@ -378,11 +378,6 @@ void virga_effect_destroy_by_host(virga_effect *effect, const char *call)
         virga_effect_destroy(effect);
 }
 
-virga_result virga_effect_ready(const virga_effect *effect)
-{
-    return effect->context->lost ? VIRGA_ERROR_DEVICE_LOST : virga_group_ready(&effect->passes);
-}
-
 /* ---- settings */
 
 virga_result virga_effect_set(virga_effect *effect, const char *call, const void *given)

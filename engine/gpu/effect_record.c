@@ -1,12 +1,18 @@
-/* gpu/effect_record.c - recording that all effects share: ring blocks, descriptors, statistics. */
-#include "gpu/effect.h"
+/* gpu/effect_record.c - recording that all effects share: checks, ring blocks, descriptors, statistics. */
+#include "gpu/effect_record.h"
 
+#include "gpu/builds.h"
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
 #include <string.h>
+
+virga_result virga_effect_ready(const virga_effect *effect)
+{
+    return effect->context->lost ? VIRGA_ERROR_DEVICE_LOST : virga_group_ready(&effect->passes);
+}
 
 virga_result virga_effect_check_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                      const void *info)

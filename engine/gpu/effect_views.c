@@ -2,9 +2,10 @@
  *
  * An effect has buffers and images for max_views views. The prepares of a frame take them in turn: a further one
  * replaces the oldest. So hosts that draw each view before they prepare the next need one. */
-#include "gpu/effect.h"
+#include "gpu/effect_views.h"
 
 #include "gpu/context.h"
+#include "gpu/effect_record.h"
 #include "gpu/errors.h"
 #include "gpu/view.h"
 

@@ -2,6 +2,7 @@
 #include "gpu/state.h"
 
 #include "gpu/context.h"
+#include "gpu/effect.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/state_bytes.h"

@@ -2,7 +2,7 @@
 #ifndef VIRGA_GPU_STATE_H
 #define VIRGA_GPU_STATE_H
 
-#include "gpu/effect.h"
+#include "gpu/effect_type.h"
 
 #include <virga/state.h>
 

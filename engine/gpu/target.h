@@ -18,6 +18,9 @@ struct virga_target {
     virga_target *next_target; /* of the context */
 };
 
+/* A new target joins the class of its definition, which is created if it is the first. */
+virga_result virga_target_class_join(virga_context *context, virga_target *target);
+
 /* An effect has, or no longer has, pipelines for a class. */
 void virga_target_class_use(virga_target_class *class_of);
 void virga_target_class_leave(virga_context *context, virga_target_class *class_of);

@@ -155,8 +155,6 @@ void splash_bind_view(virga_splash *splash, VkCommandBuffer cmd);
 
 /* ---- splash_spray.c */
 virga_result splash_spray_check(const virga_splash *splash, const virga_splash_step_info *info);
-void splash_spray_fill(const virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
-                       virga_splash_tick_gpu *out);
 
 /* After the ticks: spray whose particle fell back ends, and new spray is taken. */
 void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);

@@ -44,44 +44,6 @@ virga_result splash_spray_check(const virga_splash *splash, const virga_splash_s
     return VIRGA_OK;
 }
 
-/* The pane `before_s` before the end of the step. */
-static virga_splash_pane_gpu pane_of(const virga_splash *splash, const virga_splash_pane *pane, double before_s)
-{
-    virga_splash_pane_gpu out = {.width_m = pane->width_m, .height_m = pane->height_m};
-    for (int axis = 0; axis < 3; axis++) {
-        out.corner[axis] =
-            (float)(pane->corner_m[axis] - before_s * (double)pane->velocity_m_s[axis] - splash->anchor_m[axis]);
-        out.along_u[axis] = pane->along_u[axis];
-        out.along_v[axis] = pane->along_v[axis];
-        out.velocity[axis] = pane->velocity_m_s[axis];
-    }
-    return out;
-}
-
-void splash_spray_fill(const virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
-                       virga_splash_tick_gpu *out)
-{
-    const virga_splash_floors *floors = &info->floors;
-    const uint32_t ticks_left = info->ticks > tick_in_step + 1 ? info->ticks - tick_in_step - 1 : 0;
-    out->max_handed = splash->def.max_handed;
-    out->handed_late_s = info->handed_late_s;
-    for (int axis = 0; axis < 3; axis++)
-        out->handed_offset[axis] = (float)(info->handed_origin_m[axis] - splash->anchor_m[axis]);
-    out->pane_count = info->pane_count;
-    for (uint32_t i = 0; i < info->pane_count; i++)
-        out->panes[i] = pane_of(splash, &info->panes[i], ticks_left * splash->def.tick_s);
-    if (!floors->floors)
-        return;
-    out->tiles = floors->tiles;
-    out->inv_cell_m = 1 / floors->cell_m;
-    out->base = (float)((double)floors->base_m - splash->anchor_m[1]);
-    for (int axis = 0; axis < 2; axis++) {
-        const double low_m = floors->low_tile[axis] * (double)VIRGA_GROUND_TILE * (double)floors->cell_m;
-        out->low_tile[axis] = floors->low_tile[axis];
-        out->low[axis] = (float)(low_m - splash->anchor_m[2 * axis]);
-    }
-}
-
 static void recall(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
 {
     virga_context *context = splash->base.context;

@@ -1,6 +1,45 @@
 /* splash/splash_tick.c - the block that a tick's passes read. */
 #include "splash/splash_internal.h"
 
+/* The pane `before_s` before the end of the step. */
+static virga_splash_pane_gpu pane_of(const virga_splash *splash, const virga_splash_pane *pane, double before_s)
+{
+    virga_splash_pane_gpu out = {.width_m = pane->width_m, .height_m = pane->height_m};
+    for (int axis = 0; axis < 3; axis++) {
+        out.corner[axis] =
+            (float)(pane->corner_m[axis] - before_s * (double)pane->velocity_m_s[axis] - splash->anchor_m[axis]);
+        out.along_u[axis] = pane->along_u[axis];
+        out.along_v[axis] = pane->along_v[axis];
+        out.velocity[axis] = pane->velocity_m_s[axis];
+    }
+    return out;
+}
+
+/* What the passes of droplets that water hands over read. */
+static void fill_spray(const virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+                       virga_splash_tick_gpu *out)
+{
+    const virga_splash_floors *floors = &info->floors;
+    const uint32_t ticks_left = info->ticks > tick_in_step + 1 ? info->ticks - tick_in_step - 1 : 0;
+    out->max_handed = splash->def.max_handed;
+    out->handed_late_s = info->handed_late_s;
+    for (int axis = 0; axis < 3; axis++)
+        out->handed_offset[axis] = (float)(info->handed_origin_m[axis] - splash->anchor_m[axis]);
+    out->pane_count = info->pane_count;
+    for (uint32_t i = 0; i < info->pane_count; i++)
+        out->panes[i] = pane_of(splash, &info->panes[i], ticks_left * splash->def.tick_s);
+    if (!floors->floors)
+        return;
+    out->tiles = floors->tiles;
+    out->inv_cell_m = 1 / floors->cell_m;
+    out->base = (float)((double)floors->base_m - splash->anchor_m[1]);
+    for (int axis = 0; axis < 2; axis++) {
+        const double low_m = floors->low_tile[axis] * (double)VIRGA_GROUND_TILE * (double)floors->cell_m;
+        out->low_tile[axis] = floors->low_tile[axis];
+        out->low[axis] = (float)(low_m - splash->anchor_m[2 * axis]);
+    }
+}
+
 void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
                       const double shift[3])
 {
@@ -21,6 +60,6 @@ void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, 
         out.shift[axis] = (float)shift[axis];
         out.wind[axis] = settings->wind_share * info->wind_m_s[axis];
     }
-    splash_spray_fill(splash, info, tick_in_step, &out);
+    fill_spray(splash, info, tick_in_step, &out);
     splash->tick_offset = virga_ring_push(splash->base.context, &splash->tick_ring, &out, sizeof out);
 }

@@ -206,10 +206,10 @@ static bool set_rain(drive *d)
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
 
-bool set_rate(drive *d, float rate_mm_h)
+static bool set_rate(drive *d)
 {
     virga_rain_settings rain = virga_default_rain_settings();
-    d->rate_mm_h = rain.rate_mm_h = fminf(fmaxf(rate_mm_h, 0), 200);
+    d->set_mm_h = rain.rate_mm_h = d->rate_mm_h;
     rain.wind_m_s[0] = 1.2f;
     rain.wind_m_s[2] = 0.4f;
     rain.gust_m_s = 0.8f;
@@ -380,11 +380,13 @@ static void bind_maps(drive *d)
     stage_bind(&d->stage, &maps, &d->environment);
 }
 
-/* Advances the world by dt_s and draws it. */
-bool run_frame(drive *d, double dt_s, bool keep)
+/* Advances the world by dt_s and draws it. With `keep`, its picture can be read afterwards. */
+static bool run_frame(drive *d, double dt_s, bool keep)
 {
     VkCommandBuffer cmd;
     bool resized;
+    if (d->rate_mm_h != d->set_mm_h && !set_rate(d))
+        return false;
     if (!stage_begin(&d->stage, &cmd, &resized, d->error, sizeof d->error))
         return false;
     if (resized)
@@ -441,11 +443,17 @@ static bool run(drive *d)
     car_place(&d->car, &d->track, d->chosen.start_m);
     light_up(d);
     bind_maps(d);
-    if (!set_rate(d, d->rate_mm_h) || !attach(d))
+    if (!set_rate(d) || !attach(d))
         return false;
-    if (d->window)
-        return run_window(d);
-    if (!run_file(d) || !fine(d, virga_frame_completed(d->context, d->device.completed), "end"))
+    double dt_s;
+    while (next_frame(d, &dt_s))
+        if (!run_frame(d, dt_s, d->chosen.out && d->frame == d->chosen.frames))
+            return false;
+    if (!host_wait(&d->device, d->error, sizeof d->error))
+        return false;
+    if (!d->chosen.out)
+        return true;
+    if (!finish_file(d) || !fine(d, virga_frame_completed(d->context, d->device.completed), "end"))
         return false;
     print_cost(d);
     return true;
@@ -459,6 +467,7 @@ static void close_all(drive *d)
         keep_pipelines(d);
     destroy_rain(d);
     unload_world(d);
+    free(d->frame_s);
     stage_destroy(&d->stage);
     host_device_destroy(&d->device);
     close_window(d);

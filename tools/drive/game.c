@@ -1,4 +1,4 @@
-/* game.c - the camera, the keys and the title of the window; and frames without one. */
+/* game.c - the camera, the keys, and what a frame is: of the window, or of a file. */
 #include "game.h"
 
 #include "png.h"
@@ -56,9 +56,9 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int modifi
     case GLFW_KEY_W: d->wiper_speed = (d->wiper_speed + 1) % WIPER_SPEEDS; break;
     case GLFW_KEY_A: d->car.autopilot = true; break;
     case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD: set_rate(d, d->rate_mm_h < 1 ? 1 : d->rate_mm_h * 1.25f); break;
+    case GLFW_KEY_KP_ADD: d->rate_mm_h = d->rate_mm_h < 1 ? 1 : fminf(d->rate_mm_h * 1.25f, MAX_RATE_MM_H); break;
     case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT: set_rate(d, d->rate_mm_h < 1 ? 0 : d->rate_mm_h / 1.25f); break;
+    case GLFW_KEY_KP_SUBTRACT: d->rate_mm_h = d->rate_mm_h < 1 ? 0 : d->rate_mm_h / 1.25f; break;
     case GLFW_KEY_ESCAPE: glfwSetWindowShouldClose(window, GLFW_TRUE); break;
     default: break;
     }
@@ -88,21 +88,24 @@ static void update_title(drive *d, double now_s)
     frames = 0;
 }
 
-bool run_window(drive *d)
+static bool next_of_window(drive *d, double *dt_s)
 {
-    double then_s = glfwGetTime();
-    glfwSetWindowUserPointer(d->window, d);
-    glfwSetKeyCallback(d->window, on_key);
-    for (uint32_t i = 0; !glfwWindowShouldClose(d->window) && (!d->chosen.frames || i < d->chosen.frames); i++) {
-        glfwPollEvents();
-        read_keys(d);
-        const double now_s = glfwGetTime(), dt_s = fmin(fmax(now_s - then_s, 0), LONGEST_FRAME_S);
-        then_s = now_s;
-        if (!run_frame(d, dt_s, false))
-            return false;
-        update_title(d, now_s);
+    if (!d->frame) {
+        glfwSetWindowUserPointer(d->window, d);
+        glfwSetKeyCallback(d->window, on_key);
+        d->last_s = glfwGetTime();
+    } else {
+        update_title(d, d->last_s);
     }
-    return host_wait(&d->device, d->error, sizeof d->error);
+    if (d->chosen.frames && d->frame == d->chosen.frames)
+        return false;
+    glfwPollEvents();
+    read_keys(d);
+    const double now_s = glfwGetTime();
+    *dt_s = fmin(fmax(now_s - d->last_s, 0), LONGEST_FRAME_S);
+    d->last_s = now_s;
+    d->frame++;
+    return !glfwWindowShouldClose(d->window);
 }
 
 /* ---- frames without a window */
@@ -136,28 +139,36 @@ static void print_frame_times(double *frame_s, uint32_t count)
 }
 
 /* Time passes by equal steps, or as long as the frame before has taken, as in a window. */
-static bool run_frames(drive *d, double *frame_s)
+static bool next_of_file(drive *d, double *dt_s)
 {
-    double dt_s = 1.0 / d->chosen.fps, then_s = seconds();
-    for (uint32_t i = 0; i < d->chosen.frames; i++) {
-        if (!run_frame(d, dt_s, i + 1 == d->chosen.frames))
-            return false;
-        const double at_s = seconds();
-        frame_s[i] = at_s - then_s;
-        then_s = at_s;
+    const double now_s = seconds();
+    *dt_s = 1.0 / d->chosen.fps;
+    if (!d->frame)
+        d->frame_s = calloc(d->chosen.frames, sizeof *d->frame_s);
+    if (!d->frame_s)
+        return host_fail(d->error, sizeof d->error, "no memory for the times of %u frames", d->chosen.frames);
+    if (d->frame) {
+        d->frame_s[d->frame - 1] = now_s - d->last_s;
         if (d->chosen.real_time)
-            dt_s = fmin(frame_s[i], LONGEST_FRAME_S);
+            *dt_s = fmin(now_s - d->last_s, LONGEST_FRAME_S);
     }
-    return host_wait(&d->device, d->error, sizeof d->error);
+    d->last_s = now_s;
+    if (d->frame == d->chosen.frames)
+        return false;
+    d->frame++;
+    return true;
 }
 
-bool run_file(drive *d)
+bool next_frame(drive *d, double *dt_s)
 {
-    double *frame_s = calloc(d->chosen.frames, sizeof *frame_s);
-    const bool good = frame_s && run_frames(d, frame_s);
-    if (good)
-        print_frame_times(frame_s, d->chosen.frames);
-    free(frame_s);
-    return good && png_write(d->chosen.out, d->stage.width, d->stage.height, 4, stage_picture(&d->stage), d->error,
-                             sizeof d->error);
+    return d->window ? next_of_window(d, dt_s) : next_of_file(d, dt_s);
+}
+
+bool finish_file(drive *d)
+{
+    if (d->error[0])
+        return false;
+    print_frame_times(d->frame_s, d->frame);
+    return png_write(d->chosen.out, d->stage.width, d->stage.height, 4, stage_picture(&d->stage), d->error,
+                     sizeof d->error);
 }

@@ -16,6 +16,7 @@
 #define MAX_OCCLUDERS 4096
 #define MAX_PARTS     64 /* primitives of the car */
 #define WIPERS        2
+#define MAX_RATE_MM_H 200
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];
@@ -51,6 +52,9 @@ typedef struct drive {
     double eye_m[3]; /* of the camera outside, which lags behind */
     stage_camera camera, last_camera;
     bool has_last_camera;
+    uint32_t frame;  /* number of frames that have begun */
+    double last_s;   /* when the newest one began */
+    double *frame_s; /* without a window: how long each took */
 
     /* Virga's. */
     virga_context *context;
@@ -61,17 +65,12 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
-    virga_quality quality; /* of the definitions */
-    float budget_ms;       /* of the device's time for ticks; 0: none */
-    float rate_mm_h;
+    virga_quality quality;     /* of the definitions */
+    float budget_ms;           /* of the device's time for ticks; 0: none */
+    float rate_mm_h, set_mm_h; /* wanted, and as Virga has it */
     int wiper_speed;
     double wiper_s; /* time in the wipers' cycle */
 } drive;
-
-/* drive.c: renders a frame, dt_s after the one before; with `keep`, its picture can be read afterwards. Sets the rain
- * rate. */
-bool run_frame(drive *d, double dt_s, bool keep);
-bool set_rate(drive *d, float rate_mm_h);
 
 /* options.c: false after a line on stderr. */
 bool read_command_line(drive *d, int argc, char **argv);
@@ -91,9 +90,11 @@ void mask_pane(drive *d);
 void put_wipers(drive *d);
 void move_wipers(drive *d, double dt_s);
 
-/* game.c: runs the window until it is closed; or renders frames at equal steps and writes the last one as a file. */
-bool run_window(drive *d);
-bool run_file(drive *d);
+/* game.c: begins a frame, dt_s after the one before: reads the keys of the window, or takes equal steps without one.
+ * Returns false after the last one. Ends frames without a window: prints how even they were,
+ * and writes the last picture. */
+bool next_frame(drive *d, double *dt_s);
+bool finish_file(drive *d);
 void move_camera(drive *d, double dt_s);
 
 #endif

@@ -18,6 +18,11 @@ bool shot_blame_input(shot *s, bool right)
     return right;
 }
 
+double shot_time(const shot *s, uint32_t frame)
+{
+    return (double)(frame - s->scene->frames.first) / s->scene->frames.fps;
+}
+
 double shot_preroll_s(const shot *s)
 {
     return round(s->scene->frames.preroll_s * s->scene->frames.fps) / s->scene->frames.fps;

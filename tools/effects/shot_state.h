@@ -92,6 +92,9 @@ bool shot_ok(const shot *s, virga_result result, const char *what, char *error, 
  * because a retry would fail too. Returns `right`. */
 bool shot_blame_input(shot *s, bool right);
 
+/* Time of a scene frame: the first is 0. The shutter closes then. */
+double shot_time(const shot *s, uint32_t frame);
+
 /* Length of the pre-roll (rain before the first frame). It is a whole number of frames. */
 double shot_preroll_s(const shot *s);
 

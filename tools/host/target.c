@@ -213,6 +213,24 @@ bool host_target_add_moving(host_device *device, host_target *target, char *erro
                               error_size);
 }
 
+void host_target_drop_focus(host_device *device, host_target *target)
+{
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        vkDestroyFramebuffer(device->device, target->focused_framebuffers[i], NULL);
+        target->focused_framebuffers[i] = VK_NULL_HANDLE;
+        host_image_destroy(device, &target->focused[i]);
+    }
+    for (int i = 0; i < HOST_MAX_LAYERS; i++) {
+        vkDestroyFramebuffer(device->device, target->depth_framebuffers[i], NULL);
+        target->depth_framebuffers[i] = VK_NULL_HANDLE;
+        host_image_destroy(device, &target->layer_depths[i]);
+    }
+    vkDestroyRenderPass(device->device, target->depth_pass, NULL);
+    target->depth_pass = VK_NULL_HANDLE;
+    host_image_destroy(device, &target->depth_color);
+    host_buffer_destroy(device, &target->pick);
+}
+
 void host_target_destroy(host_device *device, host_target *target)
 {
     host_target_drop_focus(device, target);
@@ -413,6 +431,11 @@ static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output
         host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, 0, HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+}
+
+const host_image *host_target_shown(const host_target *target, host_output output)
+{
+    return target->in_focus && target->focused[output].image ? &target->focused[output] : &target->images[output];
 }
 
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs)

@@ -85,24 +85,6 @@ bool host_target_add_focus(host_device *device, host_target *target, uint32_t la
     return true;
 }
 
-void host_target_drop_focus(host_device *device, host_target *target)
-{
-    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
-        vkDestroyFramebuffer(device->device, target->focused_framebuffers[i], NULL);
-        target->focused_framebuffers[i] = VK_NULL_HANDLE;
-        host_image_destroy(device, &target->focused[i]);
-    }
-    for (int i = 0; i < HOST_MAX_LAYERS; i++) {
-        vkDestroyFramebuffer(device->device, target->depth_framebuffers[i], NULL);
-        target->depth_framebuffers[i] = VK_NULL_HANDLE;
-        host_image_destroy(device, &target->layer_depths[i]);
-    }
-    vkDestroyRenderPass(device->device, target->depth_pass, NULL);
-    target->depth_pass = VK_NULL_HANDLE;
-    host_image_destroy(device, &target->depth_color);
-    host_buffer_destroy(device, &target->pick);
-}
-
 /* ---- recording ---------------------------------------------------------------------------------------------- */
 
 void host_target_begin_layer_depth(const host_target *target, VkCommandBuffer cmd, host_output layer)
@@ -131,11 +113,6 @@ void host_target_read_layer(const host_target *target, VkCommandBuffer cmd, host
 void host_target_begin_focused(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     host_pass_begin(cmd, target->layer_pass, target->focused_framebuffers[output], target->width, target->height, 1);
-}
-
-const host_image *host_target_shown(const host_target *target, host_output output)
-{
-    return target->in_focus && target->focused[output].image ? &target->focused[output] : &target->images[output];
 }
 
 static virga_image read_by_shaders(const host_image *image, VkImageLayout layout)

@@ -129,11 +129,6 @@ void shot_close(shot *s)
 
 /* ---- stepping */
 
-double shot_time(const shot *s, uint32_t frame)
-{
-    return (double)(frame - s->scene->frames.first) / s->scene->frames.fps;
-}
-
 /* Time passes to `time_s`, by one frame. */
 static bool record_step(shot *s, VkCommandBuffer cmd, double time_s, char *error, size_t error_size)
 {

@@ -16,9 +16,6 @@ bool shot_check_scene(const scene_file *scene, char *error, size_t error_size);
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);
 void shot_close(shot *s);
 
-/* Time of a scene frame: the first is 0. The shutter closes then. */
-double shot_time(const shot *s, uint32_t frame);
-
 /* One frame of the pre-roll, while s->preroll is not 0. */
 bool shot_step_preroll(shot *s, char *error, size_t error_size);
 
