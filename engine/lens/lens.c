@@ -62,6 +62,7 @@ enum {
     COUNT_ROWS,
     COUNT_TILES,
     COUNT_APERTURE,
+    COUNT_APERTURE_ROWS,
     COUNT_VIEWS,
 };
 
@@ -76,6 +77,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
                           ((counts[COUNT_ROWS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE);
     counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
+    counts[COUNT_APERTURE_ROWS] = VIRGA_LENS_APERTURE + VIRGA_LENS_AREA_ROWS;
     counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
 }
 
@@ -93,7 +95,7 @@ static const virga_effect_ring rings[] = {
 #define WRITTEN (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)
 
 static const virga_effect_image images[] = {
-    {"lens.aperture", AT(aperture), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN, COUNT_APERTURE, COUNT_APERTURE, 1,
+    {"lens.aperture", AT(aperture), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN, COUNT_APERTURE, COUNT_APERTURE_ROWS, 1,
      VIRGA_FIRST_STORAGE},
     {"lens.samples", AT(samples), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
      VIRGA_FIRST_STORAGE},
@@ -137,6 +139,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     SAMPLED_IMAGE(COMPUTE, spreads), /* 25 */
+    {SAMPLED, COMPUTE},              /* 26 color of the layer on the scene */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -146,15 +149,21 @@ static const virga_effect_layout layouts[] = {
 static const virga_effect_pass passes[] = {
     PASS(focus),
     {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV_ROW(lens_aperture_comp)},
-    PASS(sample),
-    PASS(tile),
+    PASS(sample, .forms = 2),
+    PASS(tile, .forms = VIRGA_LENS_LAYERS + 1),
     PASS(reach),
-    PASS(gather, .forms = VIRGA_LENS_LAYERS + 1),
+    PASS(gather, .forms = LENS_GATHERS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
-    PASS(layer, .forms = VIRGA_LENS_LAYERS),
-    PASS(combine),
-    PASS(paper),
+    PASS(layer, .forms = LENS_LAYER_FORMS),
+    PASS(combine, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
+    PASS(paper, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
 };
+
+static uint32_t pass_constant(const void *object)
+{
+    const virga_lens *lens = object;
+    return lens->def.half_resolution ? VIRGA_LENS_HALVED : 0;
+}
 
 static void fill_areas(virga_lens *lens)
 {
@@ -219,7 +228,7 @@ VIRGA_EFFECT_DRAW_FUNCTIONS(lens)
 const virga_effect_type lens_type = {
     VIRGA_EFFECT_TABLES(lens, "a lens", "lens_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings),
+    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings, pass_constant),
     .draws = lens_draws,
     .draw_count = LENS_DRAWS,
     .readback_bytes = VIRGA_MAX_VIEWS * sizeof(virga_lens_state_gpu),

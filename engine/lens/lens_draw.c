@@ -134,6 +134,24 @@ static void fill_lens(const virga_lens *lens, const virga_view *view, double tim
         out->areas[i] = lens->areas[i];
 }
 
+/* Whether a layer is known to be in focus. The focus that follows the picture is known to the device only. */
+static bool layer_is_sharp(const virga_lens_gpu *view, uint32_t layer)
+{
+    const float sharp_px = 0.5f; /* half a texel, or where half resolution begins to be mixed in */
+    const float inv_m = view->layer_inv_m[layer];
+    if (view->circle_px_m <= 0 || (layer + 1 == view->on_scene && !view->depth_given))
+        return true;
+    return !view->follow && inv_m > 0 && view->circle_px_m * fabsf(view->focus_inv_m - inv_m) <= sharp_px;
+}
+
+static void find_sharp(virga_lens_gpu *view)
+{
+    for (uint32_t i = 0; i < view->layers; i++)
+        view->sharp_layers |= layer_is_sharp(view, i) ? 1u << i : 0;
+    const bool sharp_scene = view->circle_px_m <= 0 || !view->depth_given;
+    view->all_sharp = sharp_scene && view->sharp_layers == (1u << view->layers) - 1;
+}
+
 static virga_result push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
                               uint32_t layer_count, double time_s, virga_lens_gpu *filled, uint32_t *index,
                               uint32_t *offset)
@@ -145,6 +163,7 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
         filled->layer_inv_m[i] = layers[i].depth.view || layers[i].on_scene ? 0 : 1 / layers[i].depth_m;
         filled->on_scene = layers[i].on_scene ? i + 1 : filled->on_scene;
     }
+    find_sharp(filled);
     const virga_result result = virga_effect_push_view(&lens->base, "virga_lens_prepare", &lens->view_ring, filled,
                                                        sizeof *filled, index, offset);
     if (!result)
@@ -167,10 +186,13 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_FIELDS_WRITTEN] =
         (virga_bound){.view = lens->fields->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = context->linear};
     bound[LENS_BIND_FIELDS] = bound[LENS_BIND_FIELDS_WRITTEN];
+    bound[LENS_BIND_ON_SCENE] = virga_bound_or_blank(NULL, lens->blank_color, context->nearest);
     for (uint32_t i = 0; i < VIRGA_LENS_LAYERS; i++) {
         const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
         bound[LENS_BIND_LAYER_COLORS + i] =
             virga_bound_or_blank(layer ? &layer->color : NULL, lens->blank_color, context->nearest);
+        if (layer && layer->on_scene)
+            bound[LENS_BIND_ON_SCENE] = bound[LENS_BIND_LAYER_COLORS + i];
         const virga_image *depth = layer && layer->on_scene ? &view->depth : layer ? &layer->depth : NULL;
         bound[LENS_BIND_LAYER_DEPTHS + i] = virga_bound_or_blank(depth, lens->blank_depth, context->nearest);
     }
@@ -192,24 +214,64 @@ static void over(virga_lens *lens, VkCommandBuffer cmd, const char *name, const 
     virga_pass_end(context, cmd, scope);
 }
 
-static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+static bool is_linear(const virga_lens_gpu *view)
+{
+    return view->color_given != VIRGA_COLOR_SRGB;
+}
+
+/* The form of a pass by its layers and one more condition. */
+static uint32_t layers_form(const virga_lens_gpu *view, bool other)
+{
+    return view->layers + (other ? VIRGA_LENS_LAYERS + 1 : 0);
+}
+
+/* How many layers have to be looked at for their depths: up to the last one that has a depth image. */
+static uint32_t depth_layers(const virga_lens_gpu *view)
+{
+    uint32_t layers = 0;
+    for (uint32_t i = 0; i < view->layers; i++)
+        if (view->layer_inv_m[i] <= 0 && i + 1 != view->on_scene)
+            layers = i + 1;
+    return layers;
+}
+
+static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
     virga_context *context = lens->base.context;
-    over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE, VIRGA_LENS_APERTURE);
-    over(lens, cmd, "lens.sample", lens->sample, view->columns, view->rows);
+    for (uint32_t i = 0; i < view->layers; i++) {
+        if (i + 1 == view->on_scene || view->sharp_layers >> i & 1)
+            continue;
+        const uint32_t form = shaped | (view->layer_inv_m[i] > 0 ? 0 : VIRGA_LENS_DEPTHS);
+        over(lens, cmd, "lens.layers", lens->layer_sample[i], view->columns, view->rows);
+        context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof i, &i);
+        over(lens, cmd, "lens.layers", lens->layer[form], view->columns, view->rows);
+    }
+}
+
+/* The fields: what is out of focus, for each texel. */
+static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t shaped = view->blades > 0 || view->cats_eye > 0 ? VIRGA_LENS_SHAPED : 0;
+    const uint32_t most = (uint32_t)fminf(ceilf(view->max_radius) + 1, VIRGA_LENS_MAX_RADIUS);
+    over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE,
+         VIRGA_LENS_AREA_ROWS + (shaped ? 2 * most + 1 : 0));
+    over(lens, cmd, "lens.sample", lens->sample[is_linear(view)], view->columns, view->rows);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
-    virga_dispatch_2d(context, cmd, lens->tile, view->tile_columns, view->tile_rows);
+    virga_dispatch_2d(context, cmd, lens->tile[depth_layers(view)], view->tile_columns, view->tile_rows);
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
-    over(lens, cmd, "lens.gather", lens->gather[view->on_scene], view->columns, view->rows);
-    for (uint32_t i = 0; i < view->layers; i++) {
-        if (i + 1 == view->on_scene)
-            continue;
-        over(lens, cmd, "lens.layers", lens->layer_sample[i], view->columns, view->rows);
-        over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
-    }
-    over(lens, cmd, "lens.combine", lens->combine, view->width, view->height);
+    over(lens, cmd, "lens.gather", lens->gather[shaped | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0)], view->columns,
+         view->rows);
+    record_layers(lens, cmd, view, shaped);
+}
+
+static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    if (!view->all_sharp)
+        record_fields(lens, cmd, view);
+    over(lens, cmd, "lens.combine", lens->combine[layers_form(view, view->all_sharp)], view->width, view->height);
 }
 
 virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
@@ -241,7 +303,8 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &offset);
     virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
     if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
-        over(lens, cmd, "lens.paper", lens->paper, filled.width, filled.height);
+        over(lens, cmd, "lens.paper", lens->paper[layers_form(&filled, is_linear(&filled))], filled.width,
+             virga_groups_of(filled.height, VIRGA_LENS_COLUMN));
     else
         record_physical(lens, cmd, &filled);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_FRAGMENTS); /* also for the host */

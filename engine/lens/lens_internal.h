@@ -22,7 +22,14 @@ enum {
     LENS_BIND_LAYER_COLORS = 15,
     LENS_BIND_LAYER_DEPTHS = LENS_BIND_LAYER_COLORS + VIRGA_LENS_LAYERS,
     LENS_BIND_SPREADS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
+    LENS_BIND_ON_SCENE,
     LENS_BINDINGS,
+};
+
+/* Pipelines of passes. */
+enum {
+    LENS_GATHERS = 4,     /* by VIRGA_LENS_SHAPED and _ON_SCENE */
+    LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
 };
 
 /* What is known of the newest prepare of each view besides virga_effect_view. */
@@ -46,8 +53,9 @@ struct virga_lens {
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
-    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather[VIRGA_LENS_LAYERS + 1],
-        *layer_sample[VIRGA_LENS_LAYERS], *layer[VIRGA_LENS_LAYERS], *combine, *paper;
+    virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach, *gather[LENS_GATHERS],
+        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS], *combine[2 * (VIRGA_LENS_LAYERS + 1)],
+        *paper[2 * (VIRGA_LENS_LAYERS + 1)];
     virga_lens_stats stats;
 };
 

@@ -3,7 +3,8 @@
 //
 // A regular polygon of N straight blades, whose corners are at radius 1, has its edge at cos(pi/N) / cos(phi) in the
 // direction that is phi away from the middle of a blade. Rounded blades are between that and the circle.
-// One invocation per offset. Writes: aperture.
+// Below it stand the areas of the image by its radius, for spread.glsl: texels are cheaper than words of a block.
+// One invocation per offset up to the largest radius of the view, and per area. Writes: aperture.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,9 +17,19 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D aperture;
 
 void main()
 {
-    if (max(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y) >= VIRGA_LENS_APERTURE)
+    const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= VIRGA_LENS_APERTURE)
         return;
-    const vec2 apart = vec2(gl_GlobalInvocationID.xy) - VIRGA_LENS_MAX_RADIUS;
+    if (at.y < VIRGA_LENS_AREA_ROWS) {
+        const int entry = min(at.y * VIRGA_LENS_APERTURE + at.x, VIRGA_LENS_SPREADS - 1);
+        imageStore(aperture, ivec2(at.x, VIRGA_LENS_APERTURE + at.y), vec4(view.areas[entry]));
+        return;
+    }
+    const int most = min(int(ceil(view.max_radius)) + 1, VIRGA_LENS_MAX_RADIUS);
+    const ivec2 offset = ivec2(at.x - VIRGA_LENS_MAX_RADIUS, at.y - VIRGA_LENS_AREA_ROWS - most);
+    if (offset.y > most)
+        return;
+    const vec2 apart = vec2(offset);
     float edge = 1.0;
     if (view.blades > 0.0) {
         const float blade = 2.0 * PI / view.blades;
@@ -26,5 +37,5 @@ void main()
         const float phi = angle - blade * floor(angle / blade + 0.5);
         edge = mix(cos(0.5 * blade) / cos(phi), 1.0, view.roundness);
     }
-    imageStore(aperture, ivec2(gl_GlobalInvocationID.xy), vec4(length(apart) / edge));
+    imageStore(aperture, offset + VIRGA_LENS_MAX_RADIUS, vec4(length(apart) / edge));
 }

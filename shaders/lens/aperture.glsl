@@ -7,11 +7,14 @@
 // The image of a point is an image of the aperture, scaled to the radius of the circle of confusion. `reach` is the
 // radius of the aperture's image whose edge goes through the centre of a pixel, so coverage falls from 1 to 0 as reach
 // goes from half a pixel inside to half a pixel outside. A radius below half a pixel is a point: the pixel itself.
-layout(set = 0, binding = 2) uniform sampler2D aperture_reach;
+#include "aperture_image.glsl"
+
+const bool SHAPED = (OWN_FORM & VIRGA_LENS_SHAPED) != 0u;
 
 float coverage(ivec2 apart, float radius)
 {
-    const float reach = texelFetch(aperture_reach, apart + VIRGA_LENS_MAX_RADIUS, 0).r;
+    const float reach =
+        SHAPED ? texelFetch(aperture_image, apart + VIRGA_LENS_MAX_RADIUS, 0).r : length(vec2(apart));
     return clamp(max(radius, 0.5) - reach + 0.5, 0.0, 1.0);
 }
 
@@ -46,6 +49,8 @@ struct barrel {
 
 barrel barrel_at(ivec2 texel)
 {
+    if (!SHAPED)
+        return barrel(vec2(0.0), 1.0);
     const vec2 shift = cats_eye_shift(vec2(texel));
     return barrel(shift, 1.0 / max(lens_area(length(shift)), 0.05));
 }
@@ -53,6 +58,8 @@ barrel barrel_at(ivec2 texel)
 // The coverage of a texel by the image of a point, at a position in the aperture (px).
 float covers(ivec2 apart, float radius, barrel cut)
 {
+    if (!SHAPED)
+        return coverage(apart, radius);
     return min(coverage(apart, radius), second_coverage(vec2(apart), radius, cut.shift)) * cut.per_share;
 }
 

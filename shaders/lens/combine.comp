@@ -6,10 +6,37 @@
 #include "lens.glsl"
 #include "pixels.glsl"
 #include "layers.glsl"
+
+const uint LAYERS = OWN_FORM % (VIRGA_LENS_LAYERS + 1u);
+const bool ALL_SHARP = OWN_FORM > VIRGA_LENS_LAYERS;
+
 #include "compose.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D picture;
+
+struct composed {
+    vec4 color;   // so far
+    vec4 near;    // the scene's near field
+    float near_px;
+    bool near_done; // it is in the color
+    bool behind;    // see layer_cut
+};
+
+void put(uint layer, inout composed sum)
+{
+    if (ALL_SHARP) {
+        sum.color = over(layer_at(layer, 0.0), sum.color);
+        return;
+    }
+    const float radius = layer_radius(layer);
+    if (!sum.near_done && radius < sum.near_px) {
+        sum.color = over(sum.near, sum.color);
+        sum.near_done = true;
+    }
+    const vec4 cut = view.on_scene != 0u ? sum.near : vec4(0.0);
+    sum.color = over(layer_cut(layer, radius, cut, sum.near_px, sum.behind), sum.color);
+}
 
 void main()
 {
@@ -17,23 +44,24 @@ void main()
     if (at.x >= view.width || at.y >= view.height)
         return;
     look_at(at);
-    vec4 near, color;
-    float near_px;
-    scene_at(near, color, near_px);
+    composed sum;
+    scene_at(sum.near, sum.color, sum.near_px);
     // What lies on the scene also lies on its near field, so the layers behind that field come after it, cut by it.
-    bool near_done = view.on_scene != 0u, behind = true;
-    if (near_done)
-        color = over(near, color);
-    for (uint layer = 0u; layer < view.layers; layer++) {
-        if (!near_done && layer_radius(layer) < near_px) {
-            color = over(near, color);
-            near_done = true;
-        }
-        color = over(view.on_scene != 0u ? layer_cut(layer, near, near_px, behind)
-                                         : layer_at(layer, layer_radius(layer)),
-                     color);
-    }
-    if (!near_done)
-        color = over(near, color);
-    imageStore(picture, ivec2(at), color);
+    sum.near_done = view.on_scene != 0u;
+    sum.behind = true;
+    if (sum.near_done)
+        sum.color = over(sum.near, sum.color);
+    if (LAYERS > 0u)
+        put(0u, sum);
+    if (LAYERS > 1u)
+        put(1u, sum);
+    if (LAYERS > 2u)
+        put(2u, sum);
+    if (LAYERS > 3u)
+        put(3u, sum);
+    if (LAYERS > 4u)
+        put(4u, sum);
+    if (!sum.near_done)
+        sum.color = over(sum.near, sum.color);
+    imageStore(picture, ivec2(at), sum.color);
 }

@@ -2,26 +2,32 @@
 //
 // At half resolution, what is nearly in focus comes from the pixels themselves, and what is not from the blurred
 // images; it changes over where the circle of confusion grows from half a pixel to two.
-// The includer has lens.glsl, pixels.glsl and layers.glsl.
+// The includer has lens.glsl, pixels.glsl, layers.glsl and ALL_SHARP: nothing is out of focus.
 #include "scene_color.glsl"
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
 
 ivec2 pixel;  // in the target
+ivec2 texel; // of the work image
 vec2 sampled; // texture coordinates in the fields
-bool halved;
 
 void look_at(uvec2 at)
 {
     pixel = ivec2(view.left + at.x, view.top + at.y);
-    halved = view.step > 1u;
-    sampled = (vec2(at) + 0.5) / float(view.step) / vec2(textureSize(fields, 0).xy);
+    texel = ivec2(at / STEP);
+    sampled = (vec2(at) + 0.5) / float(STEP) / vec2(textureSize(fields, 0).xy);
 }
 
 // How much of a pixel comes from the blurred images. `radius` in px.
-float blurriness(float radius) { return halved ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
+float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
 
-vec4 field(uint which) { return textureLod(fields, vec3(sampled, which), 0.0); }
+// At full resolution a texel is a pixel, and fetching it is cheaper.
+vec4 field(uint which)
+{
+    if (!HALVED)
+        return texelFetch(fields, ivec3(texel, which), 0);
+    return textureLod(fields, vec3(sampled, which), 0.0);
+}
 
 vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 
@@ -29,12 +35,17 @@ vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 void scene_at(out vec4 near, out vec4 far, out float near_px)
 {
     const vec4 sharp = vec4(scene_color(pixel), 1.0);
+    near = vec4(0.0);
+    far = sharp;
+    near_px = 0.0;
+    if (ALL_SHARP)
+        return;
     const float radius = view.depth_given != 0u
-                             ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(view.step) : 0.0;
+                             ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP) : 0.0;
     const vec4 behind = field(VIRGA_LENS_FAR);
     near = field(VIRGA_LENS_NEAR);
     far = vec4(behind.rgb, 1.0);
-    near_px = behind.a * float(view.step);
+    near_px = behind.a * float(STEP);
     if (radius >= 0.0)
         far = mix(sharp, far, blurriness(radius));
     else
@@ -45,21 +56,23 @@ void scene_at(out vec4 near, out vec4 far, out float near_px)
 float layer_radius(uint layer)
 {
     const float inv_m = view.layer_inv_m[layer];
-    return circle(inv_m > 0.0 ? inv_m : inverse_depth(layer_depth(layer, pixel))) * float(view.step);
+    return circle(inv_m > 0.0 ? inv_m : inverse_depth(layer_depth(layer, pixel))) * float(STEP);
 }
 
 vec4 layer_at(uint layer, float radius)
 {
-    return mix(layer_color(layer, pixel), field(VIRGA_LENS_FIRST_LAYER + layer), blurriness(radius));
+    const vec4 color = layer_color(layer, pixel);
+    if (ALL_SHARP || (view.sharp_layers >> layer & 1u) != 0u)
+        return color;
+    return mix(color, field(VIRGA_LENS_FIRST_LAYER + layer), blurriness(radius));
 }
 
 // The same, cut by the scene's near field where that is in front of it. `behind` is so for the layers before it, and
-// then for this one: the first layer in front of that field has all before it behind it.
-vec4 layer_cut(uint layer, vec4 near, float near_px, inout bool behind)
+// then for this one: the first layer in front of that field has all before it behind it. What lies on the scene was cut
+// with it.
+vec4 layer_cut(uint layer, float radius, vec4 near, float near_px, inout bool behind)
 {
-    const float radius = layer_radius(layer);
-    if (layer + 1u == view.on_scene)
-        return layer_at(layer, radius);
-    behind = behind && radius >= near_px;
-    return layer_at(layer, radius) * (behind ? 1.0 - near.a : 1.0);
+    const bool on_scene = layer + 1u == view.on_scene;
+    behind = behind && (on_scene || radius >= near_px);
+    return layer_at(layer, radius) * (behind && !on_scene ? 1.0 - near.a : 1.0);
 }

@@ -14,17 +14,15 @@
 #include "lens.glsl"
 #include "aperture.glsl"
 #include "pixels.glsl"
-#include "layers.glsl"
 
-layout(constant_id = 0) const uint ON_SCENE = 0u; // 1 + the layer that lies on the scene; 0: none does
+const bool ON_SCENE = (OWN_FORM & VIRGA_LENS_ON_SCENE) != 0u; // a layer lies on the scene
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(set = 0, binding = 25) uniform sampler2D spreads;
+layout(set = 0, binding = 26) uniform sampler2D on_scene;
 layout(std430, set = 0, binding = 10) readonly buffer Reaches { vec4 reaches[]; };
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
-
-#define POINT 0.5 // texels: a smaller circle of confusion is sharp
 
 // The sum of the coverage of a disc on the grid, about: exact enough for weights that are divided by their sum.
 float disc_area(float radius) { return 3.14159265 * (radius * radius + 1.0 / 12.0) + 0.1; }
@@ -40,14 +38,21 @@ float nearness(ivec2 apart, float radius, float own)
 // The nearest texel of the work image.
 ivec2 inside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(view.columns, view.rows) - 1); }
 
-#define LAYER_ON_SCENE (ON_SCENE - 1u)
+// The mean of the pixels in a texel of the layer that lies on the scene.
+vec4 on_scene_mean(ivec2 texel)
+{
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < STEP * STEP; i++)
+        sum += finite(texelFetch(on_scene, pixel_of(texel, i), 0));
+    return sum / float(STEP * STEP);
+}
 
 // What is gathered of a field: the scene's color and weight, and the layer on it.
 struct field_sum {
     vec4 scene, on;
 };
 
-// Software Vulkan executes both sides of a branch, but not a loop without a turn. So each field has a loop of its own.
+// Each field has a loop of its own, because few tiles have both.
 field_sum gather_near(ivec2 texel, float reach, barrel cut, out float circle_sum)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
@@ -63,8 +68,8 @@ field_sum gather_near(ivec2 texel, float reach, barrel cut, out float circle_sum
                 source.a < -POINT ? covers(apart, -source.a, cut) * texelFetch(spreads, from, 0).r : 0.0;
             sum.scene += weight * vec4(source.rgb, 1.0);
             circle_sum += weight * source.a;
-            if (ON_SCENE != 0u)
-                sum.on += weight * layer_mean(LAYER_ON_SCENE, from);
+            if (ON_SCENE)
+                sum.on += weight * on_scene_mean(from);
         }
     }
     return sum;
@@ -84,8 +89,8 @@ field_sum gather_far(ivec2 texel, float own, float reach, barrel cut)
                                                           nearness(apart, source.a, own)
                                                     : 0.0;
             sum.scene += weight * vec4(source.rgb, 1.0);
-            if (ON_SCENE != 0u)
-                sum.on += weight * layer_mean(LAYER_ON_SCENE, from);
+            if (ON_SCENE)
+                sum.on += weight * on_scene_mean(from);
         }
     }
     return sum;
@@ -95,8 +100,8 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 {
     imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), far);
     imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
-    if (ON_SCENE != 0u)
-        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + LAYER_ON_SCENE), on);
+    if (ON_SCENE)
+        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
 }
 
 void main()
@@ -108,7 +113,7 @@ void main()
     const vec4 reach = reaches[tile.y * int(view.tile_columns) + tile.x];
     const vec4 own = texelFetch(samples, texel, 0);
     if (max(reach.x, reach.y) <= POINT) {
-        store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE != 0u ? layer_mean(LAYER_ON_SCENE, texel) : vec4(0.0));
+        store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));
         return;
     }
     const barrel cut = barrel_at(texel);

@@ -8,8 +8,9 @@
 #include "aperture.glsl"
 #include "spread.glsl"
 
-layout(constant_id = 0) const uint LAYER = 0u;
+const bool DEPTHS = (OWN_FORM & VIRGA_LENS_DEPTHS) != 0u; // each pixel of the layer has a depth of its own
 
+layout(push_constant) uniform Which { uint layer; };
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(set = 0, binding = 25) uniform sampler2D spreads;
@@ -60,13 +61,8 @@ void main()
         return;
     const ivec2 tile = texel / VIRGA_LENS_TILE;
     const float reach = reaches[tile.y * int(view.tile_columns) + tile.x].z;
-    const bool one_depth = view.layer_inv_m[LAYER] > 0.0;
     const barrel cut = barrel_at(texel);
-    vec4 sum = vec4(0.0);
-    // A loop that ends at once, rather than a branch.
-    for (int i = 0; i < int(one_depth); i++)
-        sum += gather_plane(texel, circle(view.layer_inv_m[LAYER]), cut);
-    for (int i = 0; i < int(!one_depth); i++)
-        sum += gather_depths(texel, reach, cut);
-    imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + LAYER), vec4(sum.rgb, min(sum.a, 1.0)));
+    const vec4 sum =
+        DEPTHS ? gather_depths(texel, reach, cut) : gather_plane(texel, circle(view.layer_inv_m[layer]), cut);
+    imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + layer), vec4(sum.rgb, min(sum.a, 1.0)));
 }

@@ -9,7 +9,7 @@
 #include "layers.glsl"
 #include "spread.glsl"
 
-layout(constant_id = 0) const uint LAYER = 0u;
+const uint LAYER = OWN_FORM;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D samples;

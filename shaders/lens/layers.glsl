@@ -1,5 +1,6 @@
 // layers.glsl - the layers over the scene: premultiplied color and coverage, and the depth of each pixel or of the
 // whole layer. The includer has pixels.glsl.
+// Where `layer` is a constant, one image is read. Software Vulkan reads all five otherwise.
 layout(set = 0, binding = 15) uniform sampler2D layer_color_0;
 layout(set = 0, binding = 16) uniform sampler2D layer_color_1;
 layout(set = 0, binding = 17) uniform sampler2D layer_color_2;
@@ -39,7 +40,7 @@ float layer_circle(uint layer, ivec2 texel)
     if (view.layer_inv_m[layer] > 0.0)
         return circle(view.layer_inv_m[layer]);
     float nearest = 1e9;
-    for (uint i = 0u; i < view.step * view.step; i++)
+    for (uint i = 0u; i < STEP * STEP; i++)
         nearest = min(nearest, circle(inverse_depth(layer_depth(layer, pixel_of(texel, i)))));
     return nearest;
 }
@@ -48,7 +49,7 @@ float layer_circle(uint layer, ivec2 texel)
 vec4 layer_mean(uint layer, ivec2 texel)
 {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < view.step * view.step; i++)
+    for (uint i = 0u; i < STEP * STEP; i++)
         sum += layer_color(layer, pixel_of(texel, i));
-    return sum / float(view.step * view.step);
+    return sum / float(STEP * STEP);
 }

@@ -9,8 +9,16 @@
 //
 // whatever the sensor's size. It has a sign here: r = A p / 2 (1/s - 1/z) is negative in front of the focus. It is
 // linear in 1/z, and so in the values of a depth buffer. Greater r is farther.
+//
+// Software Vulkan executes both sides of every branch, also the body of a loop that has no turn. So what a picture does
+// not need is left out by specialisation.
 #define VIRGA_GLSL
 #include "shared/lens_gpu.h"
+
+layout(constant_id = 0) const uint FORM = 0u;
+const uint OWN_FORM = FORM & 255u;
+const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
+const uint STEP = HALVED ? 2u : 1u; // as view.step
 
 layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
 #ifndef STATE_ACCESS
@@ -24,9 +32,11 @@ float inverse_depth(float stored) { return max((view.depth_a + stored) / view.de
 // The signed radius of the circle of confusion, in texels of the work image.
 float circle(float inv_m)
 {
-    const float r = view.circle_px_m * (state.focus_inv_m - inv_m) / float(view.step);
+    const float r = view.circle_px_m * (state.focus_inv_m - inv_m) / float(STEP);
     return clamp(r, -view.max_radius, view.max_radius);
 }
+
+#define POINT 0.5 // texels: a smaller circle of confusion is sharp
 
 // What a picture may not hold: NaN becomes 0, infinity and huge numbers the largest half float.
 vec4 finite(vec4 color)

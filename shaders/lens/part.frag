@@ -7,6 +7,7 @@
 #include "lens.glsl"
 #include "pixels.glsl"
 #include "layers.glsl"
+#define ALL_SHARP (view.all_sharp != 0u)
 #include "compose.glsl"
 #include "gpu/encode.glsl"
 
@@ -22,6 +23,6 @@ void main()
     vec4 shown = over(near, far);
     bool behind = true;
     for (uint layer = 0u; layer < part; layer++)
-        shown = layer_cut(layer, near, near_px, behind);
+        shown = layer_cut(layer, layer_radius(layer), near, near_px, behind);
     color = for_target(shown);
 }

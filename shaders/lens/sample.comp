@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
 #include "pixels.glsl"
+#define SCENE_LINEAR (OWN_FORM == 1u)
 #include "scene_color.glsl"
 #include "spread.glsl"
 
@@ -25,7 +26,7 @@ void main()
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
-    const uint pixels = view.step * view.step;
+    const uint pixels = STEP * STEP;
     float radii[4], nearest = 1e9;
     for (uint i = 0u; i < pixels; i++) {
         radii[i] = circle_at(pixel_of(texel, i));

@@ -1,10 +1,16 @@
-// scene_color.glsl - the host's picture as linear light. The includer has lens.glsl.
+// scene_color.glsl - the host's picture as linear light. The includer has lens.glsl. A pass with a form of its own for
+// light that is linear already defines SCENE_LINEAR: the curve costs as much as reading the picture.
 #include "shared/view_gpu.h"
 #include "gpu/host_color.glsl"
+
+#ifndef SCENE_LINEAR
+#define SCENE_LINEAR false
+#endif
 
 layout(set = 0, binding = 5) uniform sampler2D scene_picture;
 
 vec3 scene_color(ivec2 pixel)
 {
-    return host_color(finite(texelFetch(scene_picture, pixel, 0)).rgb, view.color_given);
+    const vec3 stored = finite(texelFetch(scene_picture, pixel, 0)).rgb;
+    return SCENE_LINEAR ? stored : host_color(stored, view.color_given);
 }

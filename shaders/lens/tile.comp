@@ -8,19 +8,35 @@
 #include "pixels.glsl"
 #include "layers.glsl"
 
+const uint LAYERS = OWN_FORM; // the first that have a depth image are among these
+
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(std430, set = 0, binding = 9) writeonly buffer Tiles { vec4 tiles[]; };
 
 shared vec4 largest[64];
 
+// The circle of confusion of a layer that has a depth image; 0 where there is none of it.
+float layer_largest(uint layer, ivec2 texel)
+{
+    const bool own_depths = layer + 1u != view.on_scene && view.layer_inv_m[layer] == 0.0;
+    return own_depths && layer_mean(layer, texel) != vec4(0.0) ? abs(layer_circle(layer, texel)) : 0.0;
+}
+
 vec4 largest_at(ivec2 texel)
 {
     const float radius = texelFetch(samples, texel, 0).a;
     float layers = 0.0;
-    for (uint layer = 0u; layer < view.layers; layer++)
-        if (layer + 1u != view.on_scene && view.layer_inv_m[layer] == 0.0 && layer_mean(layer, texel) != vec4(0.0))
-            layers = max(layers, abs(layer_circle(layer, texel)));
+    if (LAYERS > 0u)
+        layers = layer_largest(0u, texel);
+    if (LAYERS > 1u)
+        layers = max(layers, layer_largest(1u, texel));
+    if (LAYERS > 2u)
+        layers = max(layers, layer_largest(2u, texel));
+    if (LAYERS > 3u)
+        layers = max(layers, layer_largest(3u, texel));
+    if (LAYERS > 4u)
+        layers = max(layers, layer_largest(4u, texel));
     return vec4(max(-radius, 0.0), max(radius, 0.0), layers, 0.0);
 }
 

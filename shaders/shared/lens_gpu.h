@@ -13,8 +13,18 @@ typedef struct virga_lens_state_gpu virga_lens_state_gpu;
 #define VIRGA_LENS_TILE       16  /* pixels of the work image along a tile's side */
 #define VIRGA_LENS_MAX_RADIUS 63  /* px, of a circle of confusion in the work image */
 #define VIRGA_LENS_APERTURE   127 /* texels of the aperture image along a side: 2 VIRGA_LENS_MAX_RADIUS + 1 */
+#define VIRGA_LENS_COLUMN     8   /* (paper) pixels below each other that one invocation blurs */
 #define VIRGA_LENS_SPREADS    512 /* entries of the table of areas */
 #define VIRGA_LENS_LAYERS     5   /* layers over the scene at most */
+
+/* The image of the aperture, and below it rows with the areas. */
+#define VIRGA_LENS_AREA_ROWS 5 /* at least VIRGA_LENS_SPREADS / VIRGA_LENS_APERTURE */
+
+/* What a pass is specialised for: bits of its specialisation constant; the low ones are of the pass itself. */
+#define VIRGA_LENS_HALVED   256 /* half resolution */
+#define VIRGA_LENS_SHAPED   1   /* gather, layer: an aperture that is no disc, or cat's eye */
+#define VIRGA_LENS_ON_SCENE 2   /* gather: a layer lies on the scene */
+#define VIRGA_LENS_DEPTHS   2   /* layer: it has a depth image */
 
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
@@ -52,6 +62,8 @@ struct virga_lens_gpu {
     uint layers;            /* layers over the scene */
     uint on_scene;          /* 1 + the layer that lies on the scene; 0: none does */
     uint multiview_index;   /* see virga_view.multiview_index */
+    uint all_sharp;         /* nothing is out of focus: there are no fields and no tiles */
+    uint sharp_layers;      /* bits of layers that are known to be in focus: they have no field */
     uint color_given;       /* VIRGA_COLOR_..., see view_gpu.h */
     float layer_inv_m[5];   /* 1/m, 1 / depth of a layer without a depth image; 0: it has one */
     float areas[512];       /* texels, areas of the aperture's image, see shaders/lens/spread.glsl */
@@ -64,7 +76,7 @@ struct virga_lens_state_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 148 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 156 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif
