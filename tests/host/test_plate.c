@@ -38,7 +38,8 @@ typedef struct scene {
     host_renderer *renderer;
     host_environment environment;
     host_mesh plane, cube;
-    host_accumulator picture;
+    host_accumulator sums;
+    host_drawn picture;
     puddle puddle;
     virga_context *context; /* these for the haze before what water mirrors */
     virga_rain *rain;
@@ -103,7 +104,8 @@ static bool build(scene *s)
            host_renderer_add(s->renderer, &s->cube, error, size) &&
            host_environment_create(device, &white, &s->environment, error, size) &&
            host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
-           host_accumulator_create(&s->picture, WIDTH, HEIGHT, error, size);
+           host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
+           host_drawn_create(WIDTH, HEIGHT, &s->picture, error, size);
 }
 
 static void fill_layer(VkCommandBuffer cmd, float value)
@@ -125,7 +127,7 @@ static bool begin_rain(scene *s, VkCommandBuffer cmd)
 static bool draw(scene *s, uint32_t samples)
 {
     host_device *device = &s->base.device;
-    host_accumulator_reset(&s->picture);
+    host_accumulator_reset(&s->sums);
     for (uint32_t i = 0; i < samples; i++) {
         float jitter[2];
         host_camera now, before;
@@ -145,13 +147,16 @@ static bool draw(scene *s, uint32_t samples)
         }
         host_target_begin_layer(&s->target, cmd);
         host_target_end_layer(&s->target, cmd);
-        host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
-        if (!host_submit(device, s->base.error, sizeof s->base.error) ||
-            !host_wait(device, s->base.error, sizeof s->base.error))
+        if (!host_accumulator_add(&s->sums, cmd, &s->target, false, s->base.error, sizeof s->base.error))
             return false;
-        host_accumulator_add(&s->picture, device, &s->target, false);
+        if (i + 1 == samples)
+            host_accumulator_copy_out(&s->sums, cmd, &s->target);
+        if (!host_submit(device, s->base.error, sizeof s->base.error))
+            return false;
     }
-    host_accumulator_finish(&s->picture);
+    if (!host_wait(device, s->base.error, sizeof s->base.error))
+        return false;
+    host_accumulator_finish(&s->sums, &s->target, &s->picture);
     return true;
 }
 
@@ -181,7 +186,8 @@ static void destroy_puddle(scene *s, puddle *p)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->picture);
+    host_accumulator_destroy(&s->sums);
+    host_drawn_destroy(&s->picture);
     host_renderer_destroy(&s->renderer);
     destroy_puddle(s, &s->puddle);
     host_environment_destroy(&s->base.device, &s->environment);
@@ -292,7 +298,7 @@ static void sub_frames(void **state)
     float between = s->picture.color[at(x, edge) * 4];
     assert_true(sky > 0.9f && cube < 0.4f);
     assert_true(between > cube + 0.05f && between < sky - 0.05f);
-    assert_int_equal(s->picture.samples, 8);
+    assert_int_equal(s->sums.samples, 8);
 }
 
 /* Its sub-frames are averaged like all others, and nothing of it is in the layers beside it. */

@@ -58,7 +58,8 @@ typedef struct shot {
     host_camera_key *camera_keys;
     uint32_t camera_key_capacity;
     host_camera_path path;
-    host_accumulator frame; /* the newest drawn frame */
+    host_accumulator sums; /* of the sub-frames of a frame */
+    host_drawn frame;      /* the newest drawn frame */
 
     virga_context *context;
     virga_scene *simulation;

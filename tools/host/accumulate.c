@@ -1,140 +1,277 @@
-/* accumulate.c - sums and means of sub-frames on the CPU. */
+/* accumulate.c - sums of sub-frames on the device, and means on the CPU. */
 #include "accumulate.h"
+
+#include "descriptors.h"
+#include "pipeline.h"
+#include "shaders/frame_gpu.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t height, char *error, size_t error_size)
+#include "accumulate_comp.spv.h"
+#include "accumulate_comp_pair.spv.h"
+
+#define GROUP 8 /* pixels along a side */
+
+/* ---- pictures ----------------------------------------------------------------------------------------------- */
+
+bool host_drawn_create(uint32_t width, uint32_t height, host_drawn *p, char *error, size_t error_size)
 {
-    size_t pixels = (size_t)width * height;
-    *a = (host_accumulator){.width = width, .height = height};
-    a->color = calloc(pixels, 4 * sizeof(float));
-    a->normal = calloc(pixels, 4 * sizeof(float));
-    a->velocity = calloc(pixels, 2 * sizeof(float));
-    a->water = calloc(pixels, 2 * sizeof(float));
-    a->depth = calloc(pixels, sizeof(float));
-    a->id = calloc(pixels, sizeof(uint32_t));
-    bool made = a->color && a->normal && a->velocity && a->water && a->depth && a->id;
+    const size_t pixels = (size_t)width * height;
+    *p = (host_drawn){.width = width, .height = height};
+    p->color = calloc(pixels, 4 * sizeof(float));
+    p->normal = calloc(pixels, 4 * sizeof(float));
+    p->velocity = calloc(pixels, 2 * sizeof(float));
+    p->water = calloc(pixels, 2 * sizeof(float));
+    p->depth = calloc(pixels, sizeof(float));
+    p->id = calloc(pixels, sizeof(uint32_t));
+    bool made = p->color && p->normal && p->velocity && p->water && p->depth && p->id;
     for (int i = 0; i < HOST_MAX_LAYERS; i++) {
-        a->layers[i] = calloc(pixels, 4 * sizeof(float));
-        made = made && a->layers[i];
+        p->layers[i] = calloc(pixels, 4 * sizeof(float));
+        made = made && p->layers[i];
     }
     if (made)
         return true;
-    host_accumulator_destroy(a);
+    host_drawn_destroy(p);
     return host_fail(error, error_size, "no memory for a picture of %u x %u", width, height);
+}
+
+void host_drawn_destroy(host_drawn *p)
+{
+    free(p->color);
+    for (int i = 0; i < HOST_MAX_LAYERS; i++)
+        free(p->layers[i]);
+    free(p->normal);
+    free(p->velocity);
+    free(p->water);
+    free(p->depth);
+    free(p->id);
+    memset(p, 0, sizeof *p);
+}
+
+/* Where a picture has an output that is summed. */
+static float *floats_of(const host_drawn *p, host_output output)
+{
+    switch (output) {
+    case HOST_COLOR: return p->color;
+    case HOST_NORMAL: return p->normal;
+    case HOST_VELOCITY: return p->velocity;
+    case HOST_WATER: return p->water;
+    default: return p->layers[output - HOST_LAYER];
+    }
+}
+
+static bool is_kept(const host_target *target, host_output output)
+{
+    return output == HOST_ID || output == HOST_DEPTH ||
+           (output >= HOST_LAYER && target->kept_layers & 1u << (output - HOST_LAYER));
+}
+
+static bool is_summed(const host_target *target, int output)
+{
+    return target->images[output].image && !is_kept(target, (host_output)output);
+}
+
+/* ---- create ------------------------------------------------------------------------------------------------- */
+
+/* The output, the sum, weights. */
+static const VkDescriptorType kinds[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                          VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+static bool create_parts(host_accumulator *a, char *error, size_t error_size)
+{
+    const host_set_shape shape = {kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT};
+    const uint32_t count = HOST_FRAMES * HOST_OUTPUT_COUNT;
+    return host_sampler_create(a->device, HOST_SAMPLE_NEAREST, &a->sampler, error, error_size) &&
+           host_set_layout_create(a->device, &shape, &a->set_layout, error, error_size) &&
+           host_set_pool_create(a->device, &shape, count, &a->pool, error, error_size) &&
+           host_sets_allocate(a->device, a->pool, a->set_layout, count, a->sets[0], error, error_size) &&
+           host_pipeline_layout_create(a->device, &a->set_layout, 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                                       sizeof(struct host_accumulate_gpu), &a->layout, error, error_size) &&
+           host_compute_create(a->device, HOST_CODE(accumulate_comp), a->layout, &a->add, error, error_size) &&
+           host_compute_create(a->device, HOST_CODE(accumulate_comp_pair), a->layout, &a->add_pair, error, error_size);
+}
+
+bool host_accumulator_create(host_device *device, uint32_t width, uint32_t height, host_accumulator *a, char *error,
+                             size_t error_size)
+{
+    *a = (host_accumulator){.device = device, .width = width, .height = height};
+    if (create_parts(a, error, error_size))
+        return true;
+    host_accumulator_destroy(a);
+    return false;
 }
 
 void host_accumulator_destroy(host_accumulator *a)
 {
-    free(a->color);
-    for (int i = 0; i < HOST_MAX_LAYERS; i++)
-        free(a->layers[i]);
-    free(a->normal);
-    free(a->velocity);
-    free(a->water);
-    free(a->depth);
-    free(a->id);
-    free(a->weights);
+    if (!a->device)
+        return;
+    vkDestroyPipeline(a->device->device, a->add, NULL);
+    vkDestroyPipeline(a->device->device, a->add_pair, NULL);
+    vkDestroyPipelineLayout(a->device->device, a->layout, NULL);
+    vkDestroyDescriptorPool(a->device->device, a->pool, NULL);
+    vkDestroyDescriptorSetLayout(a->device->device, a->set_layout, NULL);
+    vkDestroySampler(a->device->device, a->sampler, NULL);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        host_buffer_destroy(a->device, &a->sums[i]);
+    for (int i = 0; i < HOST_FRAMES; i++)
+        host_buffer_destroy(a->device, &a->weights[i]);
     free(a->weight_sums);
     memset(a, 0, sizeof *a);
 }
 
+static bool create_weights(host_accumulator *a, char *error, size_t error_size)
+{
+    const size_t pixels = (size_t)a->width * a->height;
+    for (int i = 0; i < HOST_FRAMES; i++)
+        if (!a->weights[i].buffer &&
+            !host_buffer_create(a->device, pixels * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                HOST_BUFFER_UPLOAD, "weights of pixels", &a->weights[i], error, error_size))
+            return false;
+    a->weight_sums = calloc(pixels, sizeof(float));
+    return a->weight_sums || host_fail(error, error_size, "no memory for a picture of %u x %u", a->width, a->height);
+}
+
+/* ---- recording ---------------------------------------------------------------------------------------------- */
+
 void host_accumulator_reset(host_accumulator *a)
 {
     a->samples = 0;
+    free(a->weight_sums);
+    a->weight_sums = NULL;
+}
+
+static uint32_t slot_of(const host_accumulator *a)
+{
+    return (uint32_t)(a->device->frame % HOST_FRAMES);
 }
 
 float *host_accumulator_weigh(host_accumulator *a, char *error, size_t error_size)
 {
-    const size_t pixels = (size_t)a->width * a->height;
-    a->weights = a->weights ? a->weights : calloc(pixels, sizeof(float));
-    a->weight_sums = a->weight_sums ? a->weight_sums : calloc(pixels, sizeof(float));
-    if (!a->weights || !a->weight_sums)
-        host_fail(error, error_size, "no memory for a picture of %u x %u", a->width, a->height);
-    return a->weight_sums ? a->weights : NULL;
+    if (!a->weight_sums && !create_weights(a, error, error_size))
+        return NULL;
+    return a->weights[slot_of(a)].mapped;
 }
 
-/* The first sample is stored instead of added, so that a reset need not clear anything. */
-static void add(const host_accumulator *a, float *sum, const float *values, size_t channels)
+/* The sum, and the sets of an output. The device does not use them yet. */
+static bool prepare(host_accumulator *a, const host_target *target, host_output output, char *error, size_t error_size)
+{
+    host_buffer *sum = &a->sums[output];
+    const VkDeviceSize size = (VkDeviceSize)a->width * a->height * host_output_channels(output) * sizeof(float);
+    if (!sum->buffer &&
+        !host_buffer_create(a->device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                            HOST_BUFFER_DEVICE, "sum of sub-frames", sum, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
+        const VkDescriptorSet set = a->sets[i][output];
+        host_set_write_image(a->device, set, 0, a->sampler, host_target_shown(target, output)->view,
+                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        host_set_write_buffer(a->device, set, 1, kinds[1], sum->buffer);
+        host_set_write_buffer(a->device, set, 2, kinds[2], a->weight_sums ? a->weights[i].buffer : sum->buffer);
+    }
+    return true;
+}
+
+static void add(const host_accumulator *a, VkCommandBuffer cmd, host_output output)
+{
+    const struct host_accumulate_gpu push = {a->width, a->height, a->samples == 0, a->weight_sums != NULL};
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, host_output_channels(output) == 2 ? a->add_pair : a->add);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, a->layout, 0, 1, &a->sets[slot_of(a)][output], 0,
+                            NULL);
+    vkCmdPushConstants(cmd, a->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+    vkCmdDispatch(cmd, (a->width + GROUP - 1) / GROUP, (a->height + GROUP - 1) / GROUP, 1);
+}
+
+bool host_accumulator_add(host_accumulator *a, VkCommandBuffer cmd, const host_target *target, bool keep, char *error,
+                          size_t error_size)
 {
     const size_t pixels = (size_t)a->width * a->height;
-    if (!a->samples)
-        memset(sum, 0, pixels * channels * sizeof *sum);
-    if (!a->weights) {
-        for (size_t i = 0; i < pixels * channels; i++)
-            sum[i] += values[i];
-        return;
+    const float *weights = a->weights[slot_of(a)].mapped;
+    uint32_t kept = 0;
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        kept |= is_kept(target, (host_output)i) ? 1u << i : 0;
+        if (is_summed(target, i) && !a->samples && !prepare(a, target, (host_output)i, error, error_size))
+            return false;
     }
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < channels; c++)
-            sum[i * channels + c] += a->weights[i] * values[i * channels + c];
-}
-
-static void add_layers(host_accumulator *a, const host_device *device, const host_target *target, bool first, bool keep)
-{
-    const size_t values = (size_t)a->width * a->height * 4;
-    a->layer_count = target->layer_count;
-    for (uint32_t i = 0; i < target->layer_count; i++) {
-        const float *pixels = host_target_floats(device, target, (host_output)(HOST_LAYER + i));
-        if (!(target->kept_layers & 1u << i))
-            add(a, a->layers[i], pixels, 4);
-        else if (first || keep)
-            memcpy(a->layers[i], pixels, values * sizeof(float));
-    }
-    a->kept_layers = target->kept_layers;
-}
-
-void host_accumulator_add(host_accumulator *a, const host_device *device, const host_target *target, bool keep)
-{
-    size_t pixels = (size_t)a->width * a->height;
-    bool first = a->samples == 0;
-    add(a, a->color, host_target_floats(device, target, HOST_COLOR), 4);
-    add_layers(a, device, target, first, keep);
-    add(a, a->normal, host_target_floats(device, target, HOST_NORMAL), 4);
-    add(a, a->velocity, host_target_floats(device, target, HOST_VELOCITY), 2);
-    add(a, a->water, host_target_floats(device, target, HOST_WATER), 2);
-    for (size_t i = 0; a->weights && i < pixels; i++)
-        a->weight_sums[i] = a->weights[i] + (first ? 0 : a->weight_sums[i]);
-    if (first || keep) {
-        memcpy(a->depth, host_target_floats(device, target, HOST_DEPTH), pixels * sizeof(float));
-        memcpy(a->id, host_target_ids(device, target), pixels * sizeof(uint32_t));
-    }
+    host_label_begin(a->device, cmd, "accumulate");
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (is_summed(target, i))
+            host_target_begin_read(target, cmd, (host_output)i);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (is_summed(target, i))
+            add(a, cmd, (host_output)i);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (is_summed(target, i))
+            host_target_end_read(target, cmd, (host_output)i);
+    if (keep || !a->samples)
+        host_target_copy_out(target, cmd, kept);
+    host_label_end(a->device, cmd);
+    for (size_t i = 0; a->weight_sums && i < pixels; i++)
+        a->weight_sums[i] += weights[i];
     a->samples++;
+    return true;
 }
 
-static void scale(float *values, size_t count, float factor)
+void host_accumulator_copy_out(const host_accumulator *a, VkCommandBuffer cmd, const host_target *target)
 {
-    for (size_t i = 0; i < count; i++)
-        values[i] *= factor;
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        const VkBufferCopy region = {0, 0, a->sums[i].size};
+        if (is_summed(target, i))
+            vkCmdCopyBuffer(cmd, a->sums[i].buffer, target->copies[i].buffer, 1, &region);
+    }
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                        VK_ACCESS_HOST_READ_BIT);
 }
 
-static void divide(const host_accumulator *a, float *values, size_t channels)
+/* ---- means -------------------------------------------------------------------------------------------------- */
+
+static void divide(const host_accumulator *a, const float *sums, size_t channels, float *means)
 {
     const size_t pixels = (size_t)a->width * a->height;
-    if (!a->weights)
-        scale(values, pixels * channels, 1.0f / (float)a->samples);
-    for (size_t i = 0; a->weights && i < pixels; i++)
-        scale(&values[i * channels], channels, 1.0f / a->weight_sums[i]);
+    const float factor = 1.0f / (float)a->samples;
+    if (!a->weight_sums) {
+        for (size_t i = 0; i < pixels * channels; i++)
+            means[i] = sums[i] * factor;
+        return;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        const float share = 1.0f / a->weight_sums[i];
+        for (size_t c = 0; c < channels; c++)
+            means[i * channels + c] = sums[i * channels + c] * share;
+    }
 }
 
-void host_accumulator_finish(host_accumulator *a)
+static void normalise(const host_accumulator *a, float *normals)
 {
-    size_t pixels = (size_t)a->width * a->height;
-    if (a->samples < 2 && !a->weights)
-        return;
-    divide(a, a->color, 4);
-    for (uint32_t i = 0; i < a->layer_count; i++)
-        if (!(a->kept_layers & 1u << i))
-            divide(a, a->layers[i], 4);
-    divide(a, a->normal, 4);
-    divide(a, a->velocity, 2);
-    divide(a, a->water, 2);
+    const size_t pixels = (size_t)a->width * a->height;
     for (size_t i = 0; i < pixels; i++) {
-        float *n = &a->normal[i * 4];
-        float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        if (length > 0.0f)
-            scale(n, 3, 1.0f / length);
+        float *n = &normals[i * 4];
+        const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), factor = 1.0f / length;
+        for (int c = 0; length > 0.0f && c < 3; c++)
+            n[c] *= factor;
     }
+}
+
+void host_accumulator_finish(const host_accumulator *a, const host_target *target, host_drawn *p)
+{
+    const size_t pixels = (size_t)a->width * a->height;
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        const host_output output = (host_output)i;
+        if (!target->images[i].image)
+            continue;
+        if (is_summed(target, i))
+            divide(a, host_target_floats(a->device, target, output), host_output_channels(output),
+                   floats_of(p, output));
+        else if (i >= HOST_LAYER)
+            memcpy(floats_of(p, output), host_target_floats(a->device, target, output), pixels * 4 * sizeof(float));
+    }
+    if (a->samples > 1 || a->weight_sums)
+        normalise(a, p->normal);
+    memcpy(p->depth, host_target_floats(a->device, target, HOST_DEPTH), pixels * sizeof(float));
+    memcpy(p->id, host_target_ids(a->device, target), pixels * sizeof(uint32_t));
 }

@@ -1,42 +1,70 @@
-/* accumulate.h - the mean of several sub-frames: anti-aliasing and motion blur for film. */
+/* accumulate.h - the mean of several sub-frames: anti-aliasing and motion blur for film.
+ *
+ * The device adds them up, in the order in which they are recorded, and a frame is read back once:
+ *
+ *     host_accumulator_reset
+ *     for each sub-frame: draw into the target -> host_accumulator_add
+ *     host_accumulator_copy_out (in the command buffer of the last one) -> submit, wait -> host_accumulator_finish
+ */
 #ifndef VIRGA_HOST_ACCUMULATE_H
 #define VIRGA_HOST_ACCUMULATE_H
 
 #include "target.h"
 
-/* Sums of sub-frames while adding, means after host_accumulator_finish. Rows from the top. */
+/* A frame. Rows from the top. */
+typedef struct host_drawn {
+    uint32_t width, height;
+    float *color; /* RGBA */
+    /* RGBA of the outputs from HOST_LAYER on. Zero for layers that no target had; these pages are never written and
+     * cost no memory */
+    float *layers[HOST_MAX_LAYERS];
+    float *normal;   /* RGBA, normalised */
+    float *velocity; /* XY */
+    float *water;    /* wetness, depth (m) */
+    float *depth;    /* of one sub-frame: a mean of depths would be where nothing is */
+    uint32_t *id;    /* of the same sub-frame */
+} host_drawn;
+
+bool host_drawn_create(uint32_t width, uint32_t height, host_drawn *picture, char *error, size_t error_size);
+void host_drawn_destroy(host_drawn *picture);
+
 typedef struct host_accumulator {
+    host_device *device;
     uint32_t width, height;
     uint32_t samples;
-    float *color; /* RGBA */
-    /* RGBA of the outputs from HOST_LAYER on. Zero for layers that the newest target does not have; these pages are
-     * never written and cost no memory */
-    float *layers[HOST_MAX_LAYERS];
-    uint32_t layer_count, kept_layers; /* of the newest target */
-    float *normal;                     /* RGBA; finish normalises it */
-    float *velocity;                   /* XY */
-    float *water;                      /* wetness, depth (m) */
-    float *depth;                      /* of one sub-frame: a mean of depths would be where nothing is */
-    uint32_t *id;                      /* of the same sub-frame */
-    float *weights, *weight_sums;      /* of each pixel, see host_accumulator_weigh; NULL: all are 1 */
+    host_buffer sums[HOST_OUTPUT_COUNT]; /* created on first use */
+    host_buffer weights[HOST_FRAMES];    /* of each pixel, see host_accumulator_weigh; created on first use */
+    float *weight_sums;                  /* NULL: all weights are 1 */
+    VkSampler sampler;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet sets[HOST_FRAMES][HOST_OUTPUT_COUNT];
+    VkPipeline add, add_pair;
 } host_accumulator;
 
-bool host_accumulator_create(host_accumulator *accumulator, uint32_t width, uint32_t height, char *error,
-                             size_t error_size);
-void host_accumulator_destroy(host_accumulator *accumulator);
+/* On failure nothing is left. The device must outlive it. */
+bool host_accumulator_create(host_device *device, uint32_t width, uint32_t height, host_accumulator *accumulator,
+                             char *error, size_t error_size);
+void host_accumulator_destroy(host_accumulator *accumulator); /* device idle; accepts one that is all zero */
 
-/* Back to no samples. */
+/* Back to no samples. The device must have completed what was added before. */
 void host_accumulator_reset(host_accumulator *accumulator);
 
-/* Weights of the next sub-frames' pixels, to be filled before each is added. NULL: no memory. */
+/* Weights of the pixels of the next sub-frame, to be filled between host_begin_frame and host_accumulator_add. They are
+ * asked for from the first sub-frame on, or never. NULL: no memory. */
 float *host_accumulator_weigh(host_accumulator *accumulator, char *error, size_t error_size);
 
-/* Adds all outputs that were copied out of a target. Use the same order every time, because sums are floats. With
- * `keep`, depth, id and the target's kept layers are those of this sub-frame; without any `keep` those of the first
- * one. */
-void host_accumulator_add(host_accumulator *accumulator, const host_device *device, const host_target *target,
-                          bool keep);
+/* Records that all outputs of a target are added, after they are drawn. The same target and the same order give the
+ * same bits. With `keep`, depth, id and the target's kept layers are those of this sub-frame; without any `keep` those
+ * of the first one. */
+bool host_accumulator_add(host_accumulator *accumulator, VkCommandBuffer cmd, const host_target *target, bool keep,
+                          char *error, size_t error_size);
 
-void host_accumulator_finish(host_accumulator *accumulator);
+/* Records the copy of the sums into the target's buffers for reading back: host_target_floats are sums then. */
+void host_accumulator_copy_out(const host_accumulator *accumulator, VkCommandBuffer cmd, const host_target *target);
+
+/* Means, once the device has completed that. The picture is of the same size. */
+void host_accumulator_finish(const host_accumulator *accumulator, const host_target *target, host_drawn *picture);
 
 #endif

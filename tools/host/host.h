@@ -12,8 +12,9 @@
  *         host_renderer_plate      -> virga_rain_draw_haze over what puddles mirror
  *         host_target_begin_layer  -> one effect draws, for each layer; the plate's color and depth can be sampled
  *         host_target_begin_behind -> effects draw once more, over the plate: what panes show
- *         host_target_end_layer (after each), host_target_copy_out
- *         host_submit, host_wait   -> host_target_floats, host_accumulator_add
+ *         host_target_end_layer (after each), host_accumulator_add (and ..._copy_out for the last)
+ *         host_submit
+ *     host_wait                    -> host_accumulator_finish
  *
  * Every function that can fail returns false and leaves one line in `error`.
  */

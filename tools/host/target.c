@@ -452,6 +452,30 @@ void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32
                         VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
+/* The depth is not summed, so it is not read here. */
+void host_target_begin_read(const host_target *target, VkCommandBuffer cmd, host_output output)
+{
+    VkImageLayout layout;
+    if (is_sampled(output, &layout) && is_drawn(target, output))
+        return;
+    host_image_barrier(cmd, host_target_shown(target, output), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_SHADER_READ_BIT);
+}
+
+void host_target_end_read(const host_target *target, VkCommandBuffer cmd, host_output output)
+{
+    VkImageLayout layout;
+    if (is_sampled(output, &layout) && is_drawn(target, output))
+        return;
+    host_image_barrier(cmd, host_target_shown(target, output), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_TRANSFER_READ_BIT);
+}
+
 const float *host_target_floats(const host_device *device, const host_target *target, host_output output)
 {
     host_buffer_invalidate(device, &target->copies[output]);

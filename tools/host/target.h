@@ -122,6 +122,11 @@ void host_target_describe_moving(const host_target *target, virga_target_def *de
  * buffer. */
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs);
 
+/* For compute shaders that read an output, after all is drawn: in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL in between.
+ * For any output but id and depth. */
+void host_target_begin_read(const host_target *target, VkCommandBuffer cmd, host_output output);
+void host_target_end_read(const host_target *target, VkCommandBuffer cmd, host_output output);
+
 /* Pixels of an output that was copied out, once the device has completed it: rows from the top, tightly packed,
  * host_output_channels(output) values of 4 bytes each. Valid until the next copy. */
 const float *host_target_floats(const host_device *device, const host_target *target, host_output output);

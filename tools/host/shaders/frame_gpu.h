@@ -3,12 +3,14 @@
 #define HOST_FRAME_GPU_H
 
 #ifdef VULKAN /* glslang defines it */
+#define HOST_UINT  uint
 #define HOST_VEC4  vec4
 #define HOST_MAT4  mat4
 #define HOST_LIGHT host_light_gpu
 #else
 typedef float host_vec4[4];
 typedef float host_mat4[16];
+#define HOST_UINT  unsigned int
 #define HOST_VEC4  host_vec4
 #define HOST_MAT4  host_mat4
 #define HOST_LIGHT struct host_light_gpu
@@ -79,6 +81,15 @@ struct host_skylight_gpu {
 struct host_skylight_draw_gpu { /* push constants */
     HOST_MAT4 map_from_world;
     HOST_VEC4 cutout; /* alpha of the material, cutoff */
+};
+
+/* ---- sums of sub-frames ------------------------------------------------------------------------------------- */
+
+struct host_accumulate_gpu { /* push constants */
+    HOST_UINT width;
+    HOST_UINT height;
+    HOST_UINT is_first;   /* the sum has nothing yet */
+    HOST_UINT is_weighed; /* each pixel counts by its weight */
 };
 
 /* ---- a draw ------------------------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include "frame/files.h"
 #include "frame/layers.h"
 #include "frame/resume.h"
+#include "frame/writer.h"
 #include "options.h"
 #include "progress.h"
 #include "shot/checkpoint.h"
@@ -107,7 +108,8 @@ typedef struct render_job {
     jsonl stats_file;
     bool stats_open;
     bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
-    uint32_t written, gave_up;
+    frame_writer writer;
+    uint32_t gave_up;
     char error[1024];
 } render_job;
 
@@ -313,7 +315,8 @@ static bool step_before(render_job *job, uint32_t frame)
     return true;
 }
 
-/* The EXR is written last: it being there means that the frame is whole. */
+/* The EXR is written last: it being there means that the frame is whole. It and the pictures are written by a thread
+ * while the next frame is drawn; but a task that others share frames with first ends one. */
 static bool write_frame(render_job *job, uint32_t frame)
 {
     host_camera camera;
@@ -325,27 +328,30 @@ static bool write_frame(render_job *job, uint32_t frame)
     if (!shot_draw(s, frame, &camera, error, size))
         return false;
     virga_frame_completed(s->context, s->device.completed);
-    if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
+    if (!frame_writer_wait(&job->writer, error, size) ||
+        (job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
         (job->meshes && !frame_write_meshes(s, job->directory, frame, error, size)) ||
-        (job->picture.bits && !frame_write_picture(s, job->directory, frame, job->picture, error, size)) ||
-        (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
-        (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
-        !frame_write_exr(s, &camera, job->directory, frame, job->layers, error, size))
+        (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)))
         return false;
-    job->written++;
-    return true;
+    frame_writer_begin(&job->writer, s, &camera, frame);
+    return !job->task || frame_writer_wait(&job->writer, error, size);
 }
 
 /* Both leave what is finished; `frame` is the one to go on with. */
-static int stop_failed(const render_job *job)
+static int stop_failed(render_job *job)
 {
-    options_complain("render", "%s; %u finished frames are kept in %s", job->error, job->written, job->directory);
+    char ignored[256];
+    frame_writer_wait(&job->writer, ignored, sizeof ignored);
+    options_complain("render", "%s; %u finished frames are kept in %s", job->error, job->writer.written,
+                     job->directory);
     return EXIT_FAILED;
 }
 
-static int stop_interrupted(const render_job *job, uint32_t frame)
+static int stop_interrupted(render_job *job, uint32_t frame)
 {
-    options_complain("render", "interrupted: %u frames are in %s; --resume goes on with frame %u", job->written,
+    if (!frame_writer_wait(&job->writer, job->error, sizeof job->error))
+        return stop_failed(job);
+    options_complain("render", "interrupted: %u frames are in %s; --resume goes on with frame %u", job->writer.written,
                      job->directory, frame);
     return EXIT_INTERRUPTED;
 }
@@ -403,8 +409,10 @@ static bool write_claimed(render_job *job, uint32_t frame, const char **left_out
 }
 
 /* The frames that this task has finished are whole; others may still be drawn. */
-static int end_frames(const render_job *job)
+static int end_frames(render_job *job)
 {
+    if (!frame_writer_wait(&job->writer, job->error, sizeof job->error))
+        return stop_failed(job);
     if (!job->gave_up)
         return EXIT_OK;
     options_complain("render", "%u frames that failed %d times are missing; see virga farm --status %s", job->gave_up,
@@ -514,11 +522,15 @@ static int render_scene(render_job *job)
     }
     file_clean(job->directory);
     code = EXIT_FAILED;
-    if (open_stats(job)) {
+    if (!job->simulate && !frame_writer_open(&job->writer, &job->shot, job->directory, job->layers, job->preview,
+                                             job->picture, job->error, sizeof job->error)) {
+        fail(job);
+    } else if (open_stats(job)) {
         fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0],
                 job->frames[1], job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
         code = render_frames(job);
     }
+    frame_writer_close(&job->writer);
     shot_close(&job->shot);
     if (code == EXIT_OK && job->preview && !job->task && job->frames[1] > job->frames[0])
         make_film(job);

@@ -20,35 +20,35 @@ typedef struct exr_parts {
 } exr_parts;
 
 /* The first pixel of a layer that an effect draws, by its output. */
-static const void *drawn_pixels(const shot *s, const tool_layer *layer)
+static const void *drawn_pixels(const shot *s, const host_drawn *picture, const tool_layer *layer)
 {
     for (uint32_t i = 0; i < s->layer_count; i++)
         if (s->layers[i].layer == layer)
-            return s->frame.layers[s->layers[i].output - HOST_LAYER];
+            return picture->layers[s->layers[i].output - HOST_LAYER];
     return NULL;
 }
 
 /* The first value of a layer, and how many values a pixel has there. */
-static const void *layer_pixels(const shot *s, const tool_layer *layer, const float *beauty, const float *distance,
-                                uint32_t *values)
+static const void *layer_pixels(const shot *s, const host_drawn *frame, const tool_layer *layer, const float *beauty,
+                                const float *distance, uint32_t *values)
 {
-    const host_accumulator *frame = &s->frame;
     const void *const plate[HOST_LAYER] = {
         [HOST_COLOR] = beauty,       [HOST_NORMAL] = frame->normal, [HOST_VELOCITY] = frame->velocity,
         [HOST_WATER] = frame->water, [HOST_ID] = frame->id,         [HOST_DEPTH] = distance,
     };
     *values = layer->draw ? host_output_channels(HOST_LAYER) : host_output_channels(layer->plate);
-    return layer->draw ? drawn_pixels(s, layer) : (const float *)plate[layer->plate] + layer->value;
+    return layer->draw ? drawn_pixels(s, frame, layer) : (const float *)plate[layer->plate] + layer->value;
 }
 
-static void collect(const shot *s, uint32_t layers, const float *beauty, const float *distance, exr_parts *parts)
+static void collect(const shot *s, const host_drawn *frame, uint32_t layers, const float *beauty, const float *distance,
+                    exr_parts *parts)
 {
     for (uint32_t i = 0; frame_layer(i); i++) {
         const tool_layer *layer = frame_layer(i)->layer;
         uint32_t values;
         if (!(layers & 1u << i))
             continue;
-        const char *pixels = layer_pixels(s, layer, beauty, distance, &values);
+        const char *pixels = layer_pixels(s, frame, layer, beauty, distance, &values);
         for (size_t c = 0; pixels && c < 4 && layer->channels[c]; c++)
             parts->channels[parts->count++] = (exr_channel){
                 .name = layer->channels[c], .type = layer->type, .data = pixels + c * 4, .stride = values * 4u};
@@ -60,12 +60,12 @@ static float over(const float *layer, size_t c, float below)
     return layer[c] + below * (1 - layer[3]);
 }
 
-void frame_compose(const shot *s, float *beauty)
+void frame_compose(const shot *s, const host_drawn *frame, float *beauty)
 {
-    const size_t values = (size_t)s->frame.width * s->frame.height * 4;
-    memcpy(beauty, s->frame.color, values * sizeof *beauty);
+    const size_t values = (size_t)frame->width * frame->height * 4;
+    memcpy(beauty, frame->color, values * sizeof *beauty);
     for (uint32_t k = 0; k < s->layer_count; k++) {
-        const float *layer = s->frame.layers[s->layers[k].output - HOST_LAYER];
+        const float *layer = frame->layers[s->layers[k].output - HOST_LAYER];
         for (size_t i = 0; i < values && !s->layers[k].layer->is_data; i += 4)
             for (size_t c = 0; c < 4; c++)
                 beauty[i + c] = over(&layer[i], c, beauty[i + c]);
@@ -97,25 +97,25 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
     return n;
 }
 
-bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32_t frame, uint32_t layers, char *error,
-                    size_t error_size)
+bool frame_save_exr(const shot *s, const host_drawn *picture, const host_camera *camera, const char *path,
+                    uint32_t frame, uint32_t layers, char *error, size_t error_size)
 {
-    const size_t pixels = (size_t)s->frame.width * s->frame.height;
+    const size_t pixels = (size_t)picture->width * picture->height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty), *distance = malloc(pixels * sizeof *distance);
     if (!beauty || !distance) {
         free(beauty);
         free(distance);
-        return host_fail(error, error_size, "no memory for a frame of %u x %u", s->frame.width, s->frame.height);
+        return host_fail(error, error_size, "no memory for a frame of %u x %u", picture->width, picture->height);
     }
-    frame_compose(s, beauty);
+    frame_compose(s, picture, beauty);
     for (size_t i = 0; i < pixels; i++)
-        distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
+        distance[i] = (float)host_camera_distance(camera, picture->depth[i]);
     exr_parts parts = {.count = 0};
     exr_attribute attributes[11];
     char hash[32], digits[EXR_UINT_DIGITS];
-    collect(s, layers, beauty, distance, &parts);
-    const exr_frame file = {.width = s->frame.width,
-                            .height = s->frame.height,
+    collect(s, picture, layers, beauty, distance, &parts);
+    const exr_frame file = {.width = picture->width,
+                            .height = picture->height,
                             .channels = parts.channels,
                             .channel_count = parts.count,
                             .attributes = attributes,
@@ -126,39 +126,40 @@ bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32
     return written;
 }
 
-bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
-                     char *error, size_t error_size)
+bool frame_write_exr(const shot *s, const host_drawn *picture, const host_camera *camera, const char *directory,
+                     uint32_t frame, uint32_t layers, char *error, size_t error_size)
 {
     char path[4096];
     snprintf(path, sizeof path, "%s/frame.%04u.exr", directory, frame);
-    return frame_save_exr(s, camera, path, frame, layers, error, error_size);
+    return frame_save_exr(s, picture, camera, path, frame, layers, error, error_size);
 }
 
 /* ---- the rest */
 
-bool frame_save_preview(shot *s, const char *path, char *error, size_t error_size)
+bool frame_save_preview(const shot *s, const host_drawn *picture, const char *path, char *error, size_t error_size)
 {
-    const size_t pixels = (size_t)s->frame.width * s->frame.height;
+    const size_t pixels = (size_t)picture->width * picture->height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty);
     uint8_t *rgb = malloc(pixels * 3);
     bool written = beauty && rgb;
     if (!written)
-        host_fail(error, error_size, "no memory for a preview of %u x %u", s->frame.width, s->frame.height);
+        host_fail(error, error_size, "no memory for a preview of %u x %u", picture->width, picture->height);
     if (written) {
-        frame_compose(s, beauty);
+        frame_compose(s, picture, beauty);
         png_from_linear(beauty, pixels, (float)s->scene->preview.exposure_ev, rgb);
-        written = png_write(path, s->frame.width, s->frame.height, 3, rgb, error, error_size);
+        written = png_write(path, picture->width, picture->height, 3, rgb, error, error_size);
     }
     free(beauty);
     free(rgb);
     return written;
 }
 
-bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+bool frame_write_preview(const shot *s, const host_drawn *picture, const char *directory, uint32_t frame, char *error,
+                         size_t error_size)
 {
     char path[4096];
     snprintf(path, sizeof path, "%s/preview.%04u.png", directory, frame);
-    return frame_save_preview(s, path, error, error_size);
+    return frame_save_preview(s, picture, path, error, error_size);
 }
 
 /* ---- points */

@@ -6,24 +6,26 @@
 #include "picture.h"
 #include "shot/shot.h"
 
-/* Writes s->frame as DIR/frame.%04u.exr. */
-bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
-                     char *error, size_t error_size);
+/* Writes a picture that the shot drew as DIR/frame.%04u.exr. What these functions read of the shot stays the same while
+ * it is open. */
+bool frame_write_exr(const shot *s, const host_drawn *picture, const host_camera *camera, const char *directory,
+                     uint32_t frame, uint32_t layers, char *error, size_t error_size);
 
 /* The same under any name. */
-bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32_t frame, uint32_t layers, char *error,
-                    size_t error_size);
-bool frame_save_preview(shot *s, const char *path, char *error, size_t error_size);
+bool frame_save_exr(const shot *s, const host_drawn *picture, const host_camera *camera, const char *path,
+                    uint32_t frame, uint32_t layers, char *error, size_t error_size);
+bool frame_save_preview(const shot *s, const host_drawn *picture, const char *path, char *error, size_t error_size);
 
 /* Writes DIR/preview.%04u.png. */
-bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+bool frame_write_preview(const shot *s, const host_drawn *picture, const char *directory, uint32_t frame, char *error,
+                         size_t error_size);
 
 /* The beauty: layers over the plate, linear RGBA. */
-void frame_compose(const shot *s, float *beauty);
+void frame_compose(const shot *s, const host_drawn *picture, float *beauty);
 
 /* Writes the beauty as DIR/picture.%04u.png, .jpg or .tif, with the transfer curve of the plate: picture.c. */
-bool frame_write_picture(shot *s, const char *directory, uint32_t frame, picture_format format, char *error,
-                         size_t error_size);
+bool frame_write_picture(const shot *s, const host_drawn *drawn, const char *directory, uint32_t frame,
+                         picture_format format, char *error, size_t error_size);
 void frame_picture_path(const char *directory, picture_kind kind, uint32_t frame, char *path, size_t size);
 
 /* Reads the value of --picture, `word` (NULL: not given). `plate` is the format of the plate, NULL without one.

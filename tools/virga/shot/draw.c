@@ -103,7 +103,6 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
                          const host_camera *frame_ago, char *error, size_t error_size)
 {
     if (s->plate) {
-        memcpy(s->plate_buffer.mapped, s->plate->rgba, s->plate_buffer.size);
         host_target_fill_plate(&s->target, cmd, &s->plate_buffer);
         return true;
     }
@@ -229,33 +228,38 @@ static bool weigh_sample(shot *s, uint32_t sample, char *error, size_t error_siz
     double point[2];
     if (!shot_looks_through_lens(s) || camera->cats_eye <= 0)
         return true;
-    float *weights = host_accumulator_weigh(&s->frame, error, error_size);
+    float *weights = host_accumulator_weigh(&s->sums, error, error_size);
     shot_lens_point(camera, sample, s->options.samples, point);
     if (weights)
         shot_lens_weights(camera, point, s->options.width, s->options.height, weights);
     return weights;
 }
 
+/* One is recorded while the device draws the one before. */
 static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
-    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size))
+    const bool keep = sample == s->options.samples / 2;
+    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size) ||
+        !weigh_sample(s, sample, error, error_size) ||
+        !host_accumulator_add(&s->sums, cmd, &s->target, keep, error, error_size))
         return false;
-    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
-    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size) ||
-        !weigh_sample(s, sample, error, error_size))
-        return false;
-    host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
-    return true;
+    if (sample + 1 == s->options.samples)
+        host_accumulator_copy_out(&s->sums, cmd, &s->target);
+    return host_submit(&s->device, error, error_size);
 }
 
 bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size)
 {
     shot_camera(s, time_s, shot_focus_inv_m(s, time_s), NULL, camera);
-    host_accumulator_reset(&s->frame);
+    host_accumulator_reset(&s->sums);
+    if (s->plate)
+        memcpy(s->plate_buffer.mapped, s->plate->rgba, s->plate_buffer.size);
     for (uint32_t sample = 0; sample < s->options.samples; sample++)
         if (!draw_sample(s, sample, time_s, error, error_size))
             return false;
-    host_accumulator_finish(&s->frame);
+    if (!host_wait(&s->device, error, error_size))
+        return false;
+    host_accumulator_finish(&s->sums, &s->target, &s->frame);
     return true;
 }

@@ -57,12 +57,13 @@ bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, siz
         return true;
     if (!host_wait(&s->device, error, error_size))
         return false;
-    host_accumulator_destroy(&s->frame);
+    host_accumulator_destroy(&s->sums);
+    host_drawn_destroy(&s->frame);
     shot_close_lens(s);
     host_target_destroy(&s->device, &s->target);
     s->options.width = width;
     s->options.height = height;
     return shot_create_target(s, error, error_size) && shot_resize_effects(s, error, error_size) &&
            shot_renew_targets(s, error, error_size) && shot_open_lens(s, error, error_size) &&
-           host_accumulator_create(&s->frame, width, height, error, error_size);
+           shot_create_picture(s, error, error_size);
 }

@@ -79,14 +79,19 @@ void shot_close_scene(shot *s)
     s->meshes_loaded = s->occluder_count = 0;
 }
 
+bool shot_create_picture(shot *s, char *error, size_t error_size)
+{
+    const uint32_t width = s->options.width, height = s->options.height;
+    return host_accumulator_create(&s->device, width, height, &s->sums, error, error_size) &&
+           host_drawn_create(width, height, &s->frame, error, error_size);
+}
+
 static bool open_all(shot *s, char *error, size_t error_size)
 {
     if (!shot_load_camera(s))
         return host_fail(error, error_size, "no memory for the camera's path");
     return check_input(s, error, error_size) && shot_open_device(s, error, error_size) &&
-           open_plate_buffer(s, error, error_size) &&
-           (!s->options.draw ||
-            host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)) &&
+           open_plate_buffer(s, error, error_size) && (!s->options.draw || shot_create_picture(s, error, error_size)) &&
            shot_open_scene(s, error, error_size);
 }
 
@@ -113,11 +118,12 @@ void shot_close(shot *s)
     if (s->device.device) {
         host_wait(&s->device, ignored, sizeof ignored);
         shot_close_scene(s);
+        host_accumulator_destroy(&s->sums);
         virga_context_destroy(&s->context);
         host_buffer_destroy(&s->device, &s->plate_buffer);
         host_device_destroy(&s->device);
     }
-    host_accumulator_destroy(&s->frame);
+    host_drawn_destroy(&s->frame);
     if (s->instance.instance)
         host_instance_destroy(&s->instance);
     if (s->plate)

@@ -58,10 +58,10 @@ static bool write_shot(viewer *v)
         !shot_live_draw(&v->shot, v->samples, &camera, v->error, sizeof v->error))
         return false;
     note_hash(v);
-    const bool written =
-        png ? frame_save_preview(&v->shot, v->shot_file, error, sizeof error)
-            : frame_layers_parse(NULL, &layers) && frame_layers_narrow(v->scene, &layers) &&
-                  frame_save_exr(&v->shot, &camera, v->shot_file, v->shot.frame_index, layers, error, sizeof error);
+    const bool written = png ? frame_save_preview(&v->shot, &v->shot.frame, v->shot_file, error, sizeof error)
+                             : frame_layers_parse(NULL, &layers) && frame_layers_narrow(v->scene, &layers) &&
+                                   frame_save_exr(&v->shot, &v->shot.frame, &camera, v->shot_file, v->shot.frame_index,
+                                                  layers, error, sizeof error);
     view_print(v, written ? "wrote %s" : "%s", written ? v->shot_file : error);
     v->shot_file[0] = 0;
     return written || !v->script || host_fail(v->error, sizeof v->error, "%s", error);
