@@ -39,7 +39,7 @@ typedef struct fluid_body {
     virga_fluid_body_gpu start; /* (free) what the device begins with; (driven) at the beginning of the next step */
     fluid_pose wanted;          /* (driven) at the end of the next step */
     bool is_driven;
-    uint64_t sent_frame;         /* in which the device was told of it; 0: not yet */
+    uint64_t sent_frame;         /* in which it was sent to the device; 0: not yet */
     virga_fluid_body_gpu newest; /* that was read back */
     uint64_t newest_frame;
 } fluid_body;

@@ -46,39 +46,39 @@ static void count_lost(virga_effect *effect, uint64_t frame, bool dropped)
                         (unsigned long long)frame, effect->type->name, (unsigned long long)context->lost_frames);
 }
 
-static void settle_frame(virga_effect *effect, const virga_journal_fate *fate, bool dropped)
+static void settle_frame(virga_effect *effect, const virga_journal_outcome *outcome, bool dropped)
 {
-    if (fate->executed & VIRGA_DID_CONTENTS)
+    if (outcome->executed & VIRGA_DID_CONTENTS)
         effect->contents = VIRGA_EXECUTED;
-    else if ((fate->lost & VIRGA_DID_CONTENTS) && fate->frame == effect->contents_frame &&
+    else if ((outcome->lost & VIRGA_DID_CONTENTS) && outcome->frame == effect->contents_frame &&
              effect->contents != VIRGA_EXECUTED)
         effect->contents = VIRGA_NOT_RECORDED;
-    if (fate->executed & VIRGA_DID_IMAGES)
+    if (outcome->executed & VIRGA_DID_IMAGES)
         effect->images = VIRGA_EXECUTED;
-    else if ((fate->lost & VIRGA_DID_IMAGES) && effect->images != VIRGA_EXECUTED)
+    else if ((outcome->lost & VIRGA_DID_IMAGES) && effect->images != VIRGA_EXECUTED)
         effect->images = VIRGA_NOT_RECORDED;
-    if (fate->executed & VIRGA_DID_UPLOAD)
-        end_uploads(effect, fate->frame);
-    if (!fate->lost)
+    if (outcome->executed & VIRGA_DID_UPLOAD)
+        end_uploads(effect, outcome->frame);
+    if (!outcome->lost)
         return;
-    drop_statistics(effect, fate->frame, fate->lost);
-    count_lost(effect, fate->frame, dropped);
-    if (fate->lost & VIRGA_DID_LOAD)
+    drop_statistics(effect, outcome->frame, outcome->lost);
+    count_lost(effect, outcome->frame, dropped);
+    if (outcome->lost & VIRGA_DID_LOAD)
         virga_log_write(&effect->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_FRAME_LOST,
                         "frame %llu, which had to copy a loaded state of %s to the device, is lost: load it again",
-                        (unsigned long long)fate->frame, effect->type->name);
+                        (unsigned long long)outcome->frame, effect->type->name);
     /* What was lost before a load is not missed after it. */
-    if (effect->type->lost && fate->frame >= effect->load_frame)
-        effect->type->lost(effect, fate->frame, fate->lost);
+    if (effect->type->lost && outcome->frame >= effect->load_frame)
+        effect->type->lost(effect, outcome->frame, outcome->lost);
 }
 
 void virga_effects_settle(virga_context *context, uint64_t dropped)
 {
-    virga_journal_fate fate;
+    virga_journal_outcome outcome;
     for (virga_effect *effect = context->first_effect; effect; effect = effect->next_effect) {
         if (dropped)
             virga_effect_forget_views(effect, dropped);
-        while (virga_journal_take(context, &effect->journal, dropped, &fate))
-            settle_frame(effect, &fate, fate.frame == dropped);
+        while (virga_journal_take(context, &effect->journal, dropped, &outcome))
+            settle_frame(effect, &outcome, outcome.frame == dropped);
     }
 }

@@ -54,12 +54,13 @@ static virga_journal_frame *oldest(const virga_context *context, virga_journal *
     return found;
 }
 
-bool virga_journal_take(virga_context *context, virga_journal *journal, uint64_t dropped, virga_journal_fate *fate)
+bool virga_journal_take(virga_context *context, virga_journal *journal, uint64_t dropped,
+                        virga_journal_outcome *outcome)
 {
     virga_journal_frame *entry = oldest(context, journal, dropped);
     if (!entry)
         return false;
-    *fate = (virga_journal_fate){.frame = entry->frame};
+    *outcome = (virga_journal_outcome){.frame = entry->frame};
     const uint32_t *marks = journal->marks->memory.block.mapped;
     virga_buffer_invalidate(context, journal->marks);
     if (context->lost)
@@ -67,7 +68,7 @@ bool virga_journal_take(virga_context *context, virga_journal *journal, uint64_t
     for (uint32_t call = 0; call < entry->calls; call++) {
         const bool there =
             entry->frame != dropped && marks[word_of(context, entry->frame, call)] == mark_of(entry->frame);
-        *(there ? &fate->executed : &fate->lost) |= entry->did[call];
+        *(there ? &outcome->executed : &outcome->lost) |= entry->did[call];
     }
     *entry = (virga_journal_frame){0};
     return true;

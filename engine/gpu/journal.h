@@ -42,14 +42,15 @@ virga_result virga_journal_create(virga_context *context, virga_journal *journal
  * The caller records a barrier from transfers to the host behind it. */
 void virga_journal_note(virga_context *context, virga_journal *journal, VkCommandBuffer cmd, uint32_t did);
 
-/* The calls of a frame, when their fate is known. */
-typedef struct virga_journal_fate {
+/* The calls of a frame, when their outcome is known. */
+typedef struct virga_journal_outcome {
     uint64_t frame;
     uint32_t executed, lost; /* what the calls did, as bits */
-} virga_journal_fate;
+} virga_journal_outcome;
 
 /* Takes the oldest completed frame out of the journal. `dropped` (0: none) is a frame that the host has thrown away: it
  * counts as completed, and all its calls as lost. False: there is none. */
-bool virga_journal_take(virga_context *context, virga_journal *journal, uint64_t dropped, virga_journal_fate *fate);
+bool virga_journal_take(virga_context *context, virga_journal *journal, uint64_t dropped,
+                        virga_journal_outcome *outcome);
 
 #endif

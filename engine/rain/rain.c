@@ -237,7 +237,7 @@ static void destroy(void *object)
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_rain *rain = object;
-    snprintf(line, size, "rain: %u slots in %u boxes up to %.4g m wide", rain->slots, rain->levels,
+    snprintf(line, size, "rain: %u slots in %u levels, the largest %.4g m wide", rain->slots, rain->levels,
              rain->classes->side_m);
 }
 

@@ -13,7 +13,7 @@ typedef struct virga_handed_droplets_gpu virga_handed_droplets_gpu;
 
 /* One droplet, 48 bytes. */
 struct virga_handed_droplet_gpu {
-    float position[3]; /* m, relative to the origin that splash is told (virga_splash_step_info.handed_origin_m) */
+    float position[3]; /* m, relative to the origin that the host gives (virga_splash_step_info.handed_origin_m) */
     float age_s;       /* s, > 0, since it left the water */
     float velocity[3]; /* m/s */
     float diameter_m;  /* m */

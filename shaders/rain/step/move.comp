@@ -1,7 +1,7 @@
 // move.comp - moves the drops: where each slot's drop is at the end of a tick.
 // One invocation per slot. Reads: slots, travel of the classes, sways. Writes: drops.
 //
-// A slot is a point of a lattice that moves with its class: lattice coordinate = slot.place + travel. The box around
+// A slot is a point of a lattice that moves with its class: lattice coordinate = slot.lattice + travel. The box around
 // the camera contains one cell of the lattice, so each slot has one drop there. The lattice's layers (above each other)
 // are shifted sideways by a hash, and the columns of a layer again; else every drop would land where the one before it
 // landed. Everything is in integers: wrapping around is overflow, a position has the same bits however far from the

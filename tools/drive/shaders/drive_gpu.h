@@ -1,4 +1,4 @@
-/* drive_gpu.h - what the sample's shaders are told, read by C and by GLSL: vec4s only, so both lay it out alike. */
+/* drive_gpu.h - the data of the sample's shaders, read by C and by GLSL: vec4s only, so both lay it out alike. */
 #ifndef DRIVE_GPU_H
 #define DRIVE_GPU_H
 
