@@ -86,9 +86,8 @@ void virga_timers_expect(virga_context *context, bool multiview)
     context->timers.multiview = multiview;
 }
 
-virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+static virga_pass_scope write_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
 {
-    label_begin(context, cmd, name);
     virga_timer_slot *slot = slot_of_frame(context);
     if (!context->timers.enabled || context->timers.multiview || slot->count + 2 > VIRGA_MAX_QUERIES || !slot->reset)
         return (virga_pass_scope){0};
@@ -99,6 +98,14 @@ virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, c
     context->vk.CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, slot->pool, slot->count);
     slot->count += 2;
     return (virga_pass_scope){slot->count - 1};
+}
+
+/* Software Vulkan rasterises when the host's rendering ends, long after it has written the timestamps in it: a draw
+ * would have no time, and the next pass the draw's. */
+virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+{
+    label_begin(context, cmd, name);
+    return context->software ? (virga_pass_scope){0} : write_begin(context, cmd, name);
 }
 
 static void wait_for_all(virga_context *context, VkCommandBuffer cmd)
@@ -115,7 +122,8 @@ virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, c
     context->timers.multiview = false;
     if (alone)
         wait_for_all(context, cmd);
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
+    label_begin(context, cmd, name);
+    const virga_pass_scope scope = write_begin(context, cmd, name);
     if (alone)
         wait_for_all(context, cmd);
     return scope;

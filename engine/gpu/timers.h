@@ -56,7 +56,7 @@ virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, c
 /* What kind of pass the next draw is in. Draws in passes of several views are not timed. */
 void virga_timers_expect(virga_context *context, bool multiview);
 
-/* The same inside a host's rendering, where barriers are not allowed. */
+/* The same inside a host's rendering, where barriers are not allowed. Not timed on a software device. */
 virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
 void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope);
 

@@ -183,7 +183,8 @@ static uint32_t full_barriers(gpu_fixture *f, VkPhysicalDeviceType type, bool ti
     return found;
 }
 
-/* A GPU would drain at each, also where timings are on by default. */
+/* A GPU would drain at each, also where timings are on by default. A processor draws after its timestamps, so draws are
+ * timed on GPUs alone. */
 static void passes_are_timed_one_by_one_on_processors_alone(void **state)
 {
     gpu_fixture *f = *state;
@@ -192,7 +193,7 @@ static void passes_are_timed_one_by_one_on_processors_alone(void **state)
     assert_int_equal(full_barriers(f, VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, true, &on_gpu), 0);
     assert_int_equal(full_barriers(f, VK_PHYSICAL_DEVICE_TYPE_CPU, false, &none), 0);
     assert_true(on_processor > 0);
-    assert_int_equal(on_gpu, on_processor);
+    assert_true(on_gpu > on_processor);
     assert_int_equal(none, 0);
 }
 

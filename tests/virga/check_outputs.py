@@ -363,9 +363,11 @@ def check_stats(paths):
         expect((water["in_air"] > 0) == (i > 0), f"frame {i + 1}: {water['in_air']} microlitres in the air")
         check_splash_stats(line["splash"], splash)
         splash = line["splash"]
-        for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.glow", "rain.streaks",
-                     "rain.points"):
+        for name in ("rain.step", "rain.prepare", "rain.points"):
             expect(0 <= times.get(name, -1) < 60000, f"milliseconds of {name}: {times.get(name)}")
+        # Software Vulkan draws after its timestamps, and the first frame alone brings a whole window.
+        expect("rain.streaks" not in times, "a draw has a time that it does not take")
+        expect(i == 0 or "ground.window" not in times, "a pass that was not recorded has a time")
         expect(line["device_bytes"] > 0, "no device memory")
 
 

@@ -81,14 +81,42 @@ void bench_view(virga_view *view, uint32_t size)
     host_camera_view(&camera, &camera, 1.0 / 48, view);
 }
 
+#define MAX_TIMES 64
+
+/* Times of the newest frame that has any. */
+static uint32_t newest_times(const bench *b, virga_pass_time times[MAX_TIMES])
+{
+    uint32_t count = virga_timings_get(b->context, times, MAX_TIMES), newest = 0;
+    uint64_t frame = 0;
+    count = count < MAX_TIMES ? count : MAX_TIMES;
+    for (uint32_t i = 0; i < count; i++)
+        frame = times[i].frame_index > frame ? times[i].frame_index : frame;
+    for (uint32_t i = 0; i < count; i++)
+        if (times[i].frame_index == frame)
+            times[newest++] = times[i];
+    return newest;
+}
+
 double bench_pass_ms(const bench *b, const char *name)
 {
-    virga_pass_time times[32];
-    const uint32_t count = virga_timings_get(b->context, times, 32);
+    virga_pass_time times[MAX_TIMES];
+    const uint32_t count = newest_times(b, times);
     for (uint32_t i = 0; i < count; i++)
         if (!strcmp(times[i].name, name))
             return times[i].milliseconds;
     return 0;
+}
+
+double bench_draw_ms(const bench *b, const char *name, double frame_ms)
+{
+    virga_pass_time times[MAX_TIMES];
+    const uint32_t count = newest_times(b, times);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!strcmp(times[i].name, name))
+            return times[i].milliseconds;
+        frame_ms -= times[i].milliseconds;
+    }
+    return frame_ms > 0 ? frame_ms : 0;
 }
 
 bool bench_submit(bench *b, double *milliseconds)

@@ -40,6 +40,10 @@ bool bench_submit(bench *b, double *milliseconds);
 /* Time of a pass of the newest frame; 0 if it was not recorded. */
 double bench_pass_ms(const bench *b, const char *name);
 
+/* Time of a draw in the newest frame, which took `frame_ms` with all that was recorded. A software device does not time
+ * draws: there it is what the frame's timed passes leave. */
+double bench_draw_ms(const bench *b, const char *name, double frame_ms);
+
 /* A camera at eye level, with one of bench_sizes. */
 void bench_view(virga_view *view, uint32_t size);
 

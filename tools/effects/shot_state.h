@@ -74,6 +74,7 @@ typedef struct shot {
     host_buffer plate_buffer;    /* uploads its pixels */
     host_buffer state;           /* a saved state, see checkpoint.h; created on first use */
     uint32_t frame_index;        /* the simulation's current scene frame; first - 1 before the first step */
+    uint64_t step_frame;         /* frame of the device in which the newest step was recorded */
     uint32_t preroll;            /* remaining frames of the scene's pre-roll */
     bool began;                  /* the first step was done */
     double camera_time_s;        /* time of the simulation's current frame */

@@ -288,7 +288,8 @@ VIRGA_API void virga_memory_get(const virga_context *context, virga_memory_stats
  *
  * The time runs from the moment the device reaches the pass until everything up to its end is done. On a GPU no barrier
  * separates passes for this. Neighbours may overlap, also with the host's work recorded just before, so times may add
- * up to more than the frame took. On a software device passes are timed one after another. */
+ * up to more than the frame took. On a software device passes are timed one after another, and draws inside the host's
+ * rendering not at all: they are rasterised only when it ends. */
 typedef struct virga_pass_time {
     const char *name;     /* e.g. "rain.step"; static */
     double milliseconds;  /* sum over all dispatches or draws of that name in the frame */

@@ -155,7 +155,7 @@ static bool measure(bench *b, pane *p, const struct way *way)
         worked[at] = worked_ms() - start;
         textures[at] =
             way->style == VIRGA_GLASS_STYLE_TEXTURES || way->textured_px > 0 ? bench_pass_ms(b, "glass.textures") : 0;
-        draw[at] = bench_pass_ms(b, "glass.draw");
+        draw[at] = bench_draw_ms(b, "glass.draw", still[at]);
     }
     if (!good || interrupt_requested())
         return false;

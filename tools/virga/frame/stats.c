@@ -5,13 +5,15 @@
 
 #define MAX_TIMES 64
 
+/* Of this frame's step, and of the last of its sub-frames. */
 static void write_times(const shot *s, jsonl *stats)
 {
     virga_pass_time times[MAX_TIMES];
     const uint32_t passes = virga_timings_get(s->context, times, MAX_TIMES);
     jsonl_begin_object(stats, "milliseconds");
-    for (uint32_t i = 0; i < passes; i++)
-        jsonl_number(stats, times[i].name, times[i].milliseconds);
+    for (uint32_t i = 0; i < passes && i < MAX_TIMES; i++)
+        if (times[i].frame_index >= s->step_frame)
+            jsonl_number(stats, times[i].name, times[i].milliseconds);
     jsonl_end(stats);
 }
 

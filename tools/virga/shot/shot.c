@@ -141,6 +141,7 @@ static bool record_step(shot *s, VkCommandBuffer cmd, double time_s, char *error
     if (!shot_record_time(s, cmd, time_s, s->began ? 1 / s->scene->frames.fps : 0, error, error_size))
         return false;
     s->began = true;
+    s->step_frame = s->device.frame;
     return !s->options.points || shot_record_points(s, cmd, error, error_size);
 }
 

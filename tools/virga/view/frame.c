@@ -102,10 +102,15 @@ static void read_times(viewer *v)
     view_numbers *n = &v->numbers;
     virga_pass_time times[VIEW_MAX_TIMES];
     const uint32_t there = virga_timings_get(v->shot.context, times, VIEW_MAX_TIMES);
+    uint64_t frame = 0; /* what the newest frame did not record has no time in it */
     n->device_now_ms = 0;
     for (uint32_t i = 0; i < n->pass_count; i++)
         n->passes[i].newest = 0;
+    for (uint32_t i = 0; i < there && i < VIEW_MAX_TIMES; i++)
+        frame = times[i].frame_index > frame ? times[i].frame_index : frame;
     for (uint32_t i = 0; i < there && i < VIEW_MAX_TIMES; i++) {
+        if (times[i].frame_index != frame)
+            continue;
         view_pass *pass = pass_of(n, times[i].name);
         if (pass)
             pass->newest = times[i].milliseconds;
