@@ -131,7 +131,7 @@ static bool run_build(host_mesh_build *build, const float world_from_model[12])
     if (!host_mesh_build_materials(build) || !host_mesh_build_geometry(build, world_from_model))
         return false;
     find_covers(build);
-    return upload_pictures(build) &&
+    return upload_pictures(build) && host_mesh_sort_level(build) &&
            upload_geometry(build->device, build->mesh, build->vertices, build->vertex_count, build->indices,
                            build->index_count, build->error, build->error_size);
 }
@@ -236,7 +236,7 @@ bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t
     }
     mesh->materials[0] = *material;
     mesh->materials[0].base_texture = mesh->materials[0].emissive_texture = -1;
-    mesh->primitives[0] = (host_primitive){.index_count = index_count, .cover = 1.0f};
+    mesh->primitives[0] = (host_primitive){.index_count = index_count, .level_count = index_count, .cover = 1.0f};
     memcpy(mesh->primitives[0].name, material->name, sizeof mesh->primitives[0].name);
     mesh->primitives[0].surface = host_guess_material(material->name);
     mesh->primitives[0].ground = host_is_ground(material->name, mesh->primitives[0].surface);

@@ -34,6 +34,8 @@ typedef struct host_material {
 typedef struct host_primitive {
     char name[96]; /* of the mesh, or of its node */
     uint32_t first_index, index_count;
+    uint32_t level_count;  /* the first indices: triangles that water may lie on. The others are too steep for it */
+    bool still;            /* its vertices do not move: the bounds hold */
     uint32_t material;     /* into host_mesh::materials */
     uint32_t surface;      /* host_guess_material of its names: what drops land on */
     bool ground;           /* host_is_ground of its name */

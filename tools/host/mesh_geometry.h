@@ -24,6 +24,9 @@ typedef struct host_mesh_build {
 /* Fills vertices, indices and primitives from all nodes of the scene. */
 bool host_mesh_build_geometry(host_mesh_build *build, const float world_from_model[12]);
 
+/* Sorts the indices of each primitive: see host_primitive.level_count. */
+bool host_mesh_sort_level(host_mesh_build *build);
+
 /* Fills materials and pictures. */
 bool host_mesh_build_materials(host_mesh_build *build);
 

@@ -16,10 +16,38 @@ static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const stru
                        VK_ACCESS_UNIFORM_READ_BIT);
 }
 
-static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id,
+/* Whether a light reaches into a box: its range does, and it does not turn its back on all of it. */
+static bool reaches(const virga_light *light, const float low[3], const float high[3])
+{
+    const float *d = light->direction;
+    const bool spot = d[0] != 0.0f || d[1] != 0.0f || d[2] != 0.0f;
+    double apart2 = 0, most_ahead = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double to_low = (double)low[axis] - light->position_m[axis];
+        const double to_high = (double)high[axis] - light->position_m[axis];
+        const double apart = fmax(fmax(to_low, -to_high), 0);
+        apart2 += apart * apart;
+        most_ahead += fmax((double)d[axis] * to_low, (double)d[axis] * to_high);
+    }
+    const double range_m = 1.001 * (double)light->range_m + 0.001;
+    return (light->range_m <= 0.0f || apart2 <= range_m * range_m) &&
+           (!spot || light->cos_outer < 0.0f || light->cos_inner < 0.0f || most_ahead > -1e-3);
+}
+
+/* Bits of the lights that may reach a primitive. */
+static uint32_t lamps_of(const host_renderer *r, const host_primitive *primitive)
+{
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < r->light_count; i++)
+        bits |= !primitive->still || reaches(&r->lights[i], primitive->low, primitive->high) ? 1u << i : 0;
+    return bits;
+}
+
+static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id, uint32_t lamps,
                          struct host_surface_gpu *out)
 {
     float bits = 0.0f;
+    memset(out, 0, sizeof *out);
     bits += material->base_texture >= 0 ? HOST_HAS_BASE_TEXTURE : 0;
     bits += material->emissive_texture >= 0 ? HOST_HAS_EMISSIVE_TEXTURE : 0;
     bits += material->alpha == HOST_ALPHA_GLASS ? HOST_IS_GLASS : 0;
@@ -31,6 +59,7 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
     out->traits[1] = material->cutoff;
     out->traits[2] = (float)id;
     out->traits[3] = bits;
+    out->lamps[0] = (float)lamps;
 }
 
 /* Whether a pipeline draws a material. */
@@ -47,38 +76,68 @@ static bool is_drawn_by(const host_material *material, host_pipeline kind)
 
 typedef const VkPipeline (*pipelines)[2]; /* the plate's, or the mirror's */
 
-static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_entry *entry, pipelines from,
-                       host_pipeline kind)
+/* What is bound while a kind is drawn. */
+typedef struct drawing {
+    const host_renderer *renderer;
+    VkCommandBuffer cmd;
+    pipelines from;
+    VkPipeline bound;
+} drawing;
+
+static void draw_indices(drawing *d, host_pipeline kind, bool two_sided, uint32_t first, uint32_t count)
 {
+    const VkPipeline pipeline = d->from[kind][two_sided];
+    if (!count)
+        return;
+    if (d->bound != pipeline)
+        vkCmdBindPipeline(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    d->bound = pipeline;
+    vkCmdDrawIndexed(d->cmd, count, 1, first, 0, 0);
+}
+
+/* Where no water can lie a smaller shader comes to the same bits. */
+static void draw_primitive(drawing *d, const host_primitive *primitive, const host_material *material,
+                           host_pipeline kind)
+{
+    const uint32_t first = primitive->first_index, count = primitive->index_count;
+    uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
+    if (d->from == (pipelines)d->renderer->mirror_pipelines || (kind == HOST_PIPELINE_GLASS && level))
+        level = count; /* glass stays in its order */
+    if (kind == HOST_PIPELINE_DEPTH || kind == HOST_PIPELINE_CUTOUT)
+        level = count;
+    draw_indices(d, kind, material->two_sided, first, level);
+    draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
+                 first + level, count - level);
+}
+
+static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
+{
+    const host_renderer *r = d->renderer;
     const host_mesh *mesh = entry->mesh;
     const VkDeviceSize offset = 0;
-    vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
-    vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    int bound = -1;
+    vkCmdBindVertexBuffers(d->cmd, 0, 1, &mesh->vertices.buffer, &offset);
+    vkCmdBindIndexBuffer(d->cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const host_primitive *primitive = &mesh->primitives[i];
         const host_material *material = &mesh->materials[primitive->material];
         if (!is_drawn_by(material, kind))
             continue;
-        if (bound != material->two_sided) {
-            bound = material->two_sided;
-            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[kind][bound]);
-        }
         struct host_surface_gpu surface;
-        fill_surface(primitive, material, entry->first_id + i, &surface);
-        vkCmdPushConstants(cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
+        fill_surface(primitive, material, entry->first_id + i, lamps_of(r, primitive), &surface);
+        vkCmdPushConstants(d->cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
+        vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);
-        vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+        draw_primitive(d, primitive, material, kind);
     }
 }
 
 static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, pipelines from, host_pipeline kind)
 {
     const bool mirrored = from == (pipelines)r->mirror_pipelines;
+    drawing d = {.renderer = r, .cmd = cmd, .from = from};
     for (uint32_t i = 0; i < r->entry_count; i++)
         if (!mirrored || !r->entries[i].mesh->apart)
-            draw_entry(r, cmd, &r->entries[i], from, kind);
+            draw_entry(&d, &r->entries[i], kind);
 }
 
 static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines from)

@@ -14,6 +14,8 @@ typedef enum host_pipeline {
     HOST_PIPELINE_CUTOUT, /* cut-out, depth only */
     HOST_PIPELINE_SHADE,  /* color of the two above, where the depth is equal */
     HOST_PIPELINE_GLASS,  /* blended over it */
+    HOST_PIPELINE_DRY,    /* instead of these two where no water can lie; not in the mirror, where nothing is wet */
+    HOST_PIPELINE_DRY_GLASS,
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,
 } host_pipeline;

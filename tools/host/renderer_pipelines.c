@@ -6,6 +6,7 @@
 
 #include "cutout_frag.spv.h"
 #include "scene_frag.spv.h"
+#include "scene_frag_dry.spv.h"
 #include "scene_frag_mirror.spv.h"
 #include "scene_vert.spv.h"
 #include "scene_vert_mirror.spv.h"
@@ -36,7 +37,7 @@ static bool create_bindings(host_renderer *r, char *error, size_t error_size)
 
 /* ---- one pipeline ------------------------------------------------------------------------------------------- */
 
-enum { SHADER_SCENE_VERT, SHADER_CUTOUT, SHADER_SCENE_FRAG, SHADER_SKY_VERT, SHADER_SKY_FRAG };
+enum { SHADER_SCENE_VERT, SHADER_CUTOUT, SHADER_SCENE_FRAG, SHADER_DRY_FRAG, SHADER_SKY_VERT, SHADER_SKY_FRAG };
 
 #define NO_SHADER (-1)
 
@@ -49,6 +50,8 @@ static const struct {
     [HOST_PIPELINE_CUTOUT] = {SHADER_SCENE_VERT, SHADER_CUTOUT, true, false, false, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_SHADE] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_GLASS] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
+    [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_SKY] = {SHADER_SKY_VERT, SHADER_SKY_FRAG, false, true, false, VK_COMPARE_OP_LESS_OR_EQUAL},
 };
 
@@ -59,6 +62,7 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_SCENE_VERT: return mirror ? HOST_CODE(scene_vert_mirror) : HOST_CODE(scene_vert);
     case SHADER_CUTOUT: return HOST_CODE(cutout_frag);
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
+    case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
     case SHADER_SKY_VERT: return HOST_CODE(sky_vert);
     case SHADER_SKY_FRAG: return mirror ? HOST_CODE(sky_frag_mirror) : HOST_CODE(sky_frag);
     default: return (host_code){0};
@@ -106,13 +110,19 @@ static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipe
 
 /* ---- all of them -------------------------------------------------------------------------------------------- */
 
+/* Devices without independent blending have meshes without glass. */
+static bool is_used(const host_renderer *r, const pipeline_set *set, int kind)
+{
+    if (set->mirror && (kind == HOST_PIPELINE_DRY || kind == HOST_PIPELINE_DRY_GLASS))
+        return false;
+    return r->device->independent_blend || !recipes[kind].blend;
+}
+
 static bool build(host_renderer *r, pipeline_set *set, char *error, size_t error_size)
 {
     bool ok = true;
     for (int kind = 0; ok && kind < HOST_PIPELINE_COUNT; kind++) {
-        if (kind == HOST_PIPELINE_GLASS && !r->device->independent_blend)
-            continue; /* meshes have no glass then */
-        for (int two_sided = 0; ok && two_sided < 2; two_sided++)
+        for (int two_sided = 0; ok && two_sided < 2 && is_used(r, set, kind); two_sided++)
             ok = create_pipeline(r, set, (host_pipeline)kind, two_sided, error, error_size);
     }
     return ok;

@@ -17,6 +17,7 @@ typedef float host_mat4[16];
 #endif
 
 #define HOST_MAX_LIGHTS 16
+#define HOST_LEVEL_Y    0.3    /* normals that rise less are too steep for water */
 #define HOST_MIRROR_FAR 1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
@@ -63,6 +64,7 @@ struct host_surface_gpu { /* push constants */
     /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass; from 8 on, for ground,
      * 1 + its material */
     HOST_VEC4 traits;
+    HOST_VEC4 lamps; /* x: bits of the lights that may reach it */
 };
 
 /* ---- skylight: how much of the sky is visible around the camera ---------------------------------------- */

@@ -1,6 +1,6 @@
 #version 460
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
-// mirror's plane, and dry.
+// mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -20,8 +20,11 @@ layout(location = 0) out vec4 out_color;
 layout(location = 1) out float out_near;
 #else
 #include "outputs.glsl"
+#ifndef DRY
+#define WET
 #include "water.glsl"
 #include "mirror.glsl"
+#endif
 #endif
 
 const float PI = 3.14159265;
@@ -90,8 +93,8 @@ vec3 specular_lobe(vec3 f0, float roughness, float n_l, float n_v, vec3 n, vec3 
 vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
 {
     vec3 sum = vec3(0.0);
-    int count = int(frame.moved.w);
-    for (int i = 0; i < count; i++) {
+    for (int lamps = int(surface.lamps.x); lamps != 0; lamps &= lamps - 1) {
+        int i = findLSB(lamps);
         vec3 to = frame.lights[i].position.xyz - in_relative;
         float distance2 = max(dot(to, to), 1e-4);
         vec3 l = to * inversesqrt(distance2);
@@ -109,7 +112,7 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
     return sum;
 }
 
-#ifndef MIRROR
+#ifdef WET
 // A level mirror of water over a colour: of the scene where that is known, else of the sky that is left.
 vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
 {
@@ -124,6 +127,21 @@ vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
     return color * (1.0 - fresnel) + mirror + lit(vec3(0.0), f0, max(water.roughness, 0.08), up, v, n_v);
 }
 #endif
+
+// `eye`: where the mirror is seen from; `wetness` and depth of water (m).
+void write(vec3 color, float alpha, vec3 n, vec3 eye, vec2 wetness)
+{
+#ifdef MIRROR
+    out_color = vec4(min(color, vec3(6e4)), alpha);
+    out_near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR); // glass keeps that of what is behind it
+#else
+    out_color = vec4(color, alpha);
+    out_normal = vec4(n, 1.0);
+    out_velocity = velocity_of(vec4(in_relative, 1.0), vec4(in_relative + frame.moved.xyz, 1.0));
+    out_water = wetness;
+    out_id = uint(surface.traits.z);
+#endif
+}
 
 void main()
 {
@@ -149,14 +167,17 @@ void main()
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
     vec3 albedo = base.rgb * (1.0 - metallic);
-#ifndef MIRROR
+#ifdef WET
     Water water = water_at(in_relative, n);
     wet_material(water, metallic, albedo, roughness, f0);
+    vec2 wetness = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
+#else
+    vec2 wetness = vec2(0.0);
 #endif
     vec4 moments = sky_moments(n);
     vec3 r = reflect(-v, n);
     vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
-#ifndef MIRROR
+#ifdef WET
     // Under water, whose index is near its own, hardly anything shines: the water does.
     reflected *= 1.0 - water.puddle;
     f0 *= 1.0 - water.puddle;
@@ -164,7 +185,7 @@ void main()
 #endif
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
     vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
-#ifndef MIRROR
+#ifdef WET
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water), water.puddle);
 #endif
@@ -174,14 +195,5 @@ void main()
         alpha = base.a;
         color = color * alpha + reflected * (1.0 - alpha);
     }
-#ifdef MIRROR
-    out_color = vec4(min(color, vec3(6e4)), alpha);
-    out_near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR); // glass keeps that of what is behind it
-#else
-    out_color = vec4(color, alpha);
-    out_normal = vec4(n, 1.0);
-    out_velocity = velocity_of(vec4(in_relative, 1.0), vec4(in_relative + frame.moved.xyz, 1.0));
-    out_water = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
-    out_id = uint(surface.traits.z);
-#endif
+    write(color, alpha, n, eye, wetness);
 }

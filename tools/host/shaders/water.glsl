@@ -68,7 +68,7 @@ Water water_at(vec3 relative, vec3 n)
     const float near = virga_ground_near_share(relative.xz * inv_cell, frame.ground_wrap.w);
     if (frame.ground_far.y > 0.0 && near < 1.0)
         wet = virga_ground_mix(far_water(relative, height_m), wet, near);
-    const float level = inv_cell > 0.0 ? smoothstep(0.3, 0.6, n.y) : 0.0;
+    const float level = inv_cell > 0.0 ? smoothstep(HOST_LEVEL_Y, 0.6, n.y) : 0.0;
     Water water;
     water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
     water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
