@@ -188,6 +188,7 @@ virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_vie
                         .line_px = rain->settings.min_width_px + 1, /* the width of quads in streak.glsl */
                         .haze = has_haze,
                         .depth = has_depth,
+                        .lens = has_depth && view->aperture_m > 0,
                         .glows = has_haze ? glowing_lamps(rain) : 0};
     return virga_check_uploads(rain->base.context);
 }
@@ -195,6 +196,7 @@ virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_vie
 /* ---- draw */
 
 static const uint32_t plain[2] = {0, VIRGA_RAIN_STREAKS_DEPTH};
+static const uint32_t wide[3] = {0, VIRGA_RAIN_STREAKS_DEPTH, VIRGA_RAIN_STREAKS_DEPTH | VIRGA_RAIN_STREAKS_LENS};
 static const uint32_t lines[2] = {VIRGA_RAIN_STREAKS_LINES, VIRGA_RAIN_STREAKS_LINES | VIRGA_RAIN_STREAKS_DEPTH};
 
 /* In the order of RAIN_DRAW_... Haze moves with the surface behind it, so it writes no motion. */
@@ -204,7 +206,7 @@ const virga_effect_draw rain_draws[RAIN_DRAW_ROWS] = {
     {"rain.thin_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_thin_vert),
      VIRGA_FRAGMENT_FORMS(rain_draw_streak_thin_frag), plain, 2},
     {"rain.wide_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_wide_vert),
-     VIRGA_FRAGMENT_FORMS(rain_draw_streak_wide_frag), plain, 2},
+     VIRGA_FRAGMENT_FORMS(rain_draw_streak_wide_frag), wide, 3},
     {"rain.haze", VIRGA_VERTEX_FORM(rain_draw_haze_vert), VIRGA_FORM(rain_draw_haze_frag), .no_depth = true},
     {"rain.glow", VIRGA_VERTEX_FORM(rain_draw_glow_vert), VIRGA_FORM(rain_draw_glow_frag), .no_depth = true},
 };
@@ -249,7 +251,7 @@ static virga_result draw_parts(virga_rain *rain, const char *call, VkCommandBuff
     const virga_effect_view *view = virga_effect_selected(&rain->base);
     const rain_prepared *seen = &rain->prepared[rain->base.slot];
     const virga_pipeline *thin_quads = found->draws[RAIN_DRAW_THIN + seen->depth],
-                         *wide_quads = found->draws[RAIN_DRAW_WIDE + seen->depth],
+                         *wide_quads = found->draws[RAIN_DRAW_WIDE + seen->depth + seen->lens],
                          *line = found->draws[RAIN_DRAW_LINES + seen->depth], *haze = found->draws[RAIN_DRAW_HAZE],
                          *glow = found->draws[RAIN_DRAW_GLOW];
     const virga_pipeline *used[] = {haze, glow, thin_quads, wide_quads, line ? line : thin_quads};

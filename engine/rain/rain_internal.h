@@ -96,8 +96,8 @@ enum {
     RAIN_DRAW_LINES = 0,
     RAIN_DRAW_THIN = 2,
     RAIN_DRAW_WIDE = 4,
-    RAIN_DRAW_HAZE = 6,
-    RAIN_DRAW_GLOW = 7,
+    RAIN_DRAW_HAZE = 7,
+    RAIN_DRAW_GLOW = 8,
     RAIN_DRAW_ROWS = 5
 };
 
@@ -123,7 +123,7 @@ enum { RAIN_DID_MAPS = VIRGA_DID_OWN }; /* the occlusion maps, in the journal */
 typedef struct rain_prepared {
     uint32_t tick_offset;
     float line_px; /* width of line streaks */
-    bool haze, depth;
+    bool haze, depth, lens;
     uint32_t glows; /* number of lamps that glow */
 } rain_prepared;
 

@@ -10,6 +10,12 @@ float buffer_depth(vec2 pixel) { return texelFetch(scene_depth, ivec2(pixel), 0)
 // From a stored depth to view depth (m).
 float view_depth(float stored) { return view.depth_b / (view.depth_a + stored); }
 
+// 0 behind a surface, rising to 1 over `soft` (m) in front of it.
+float soft_step(float in_front, float soft)
+{
+    return soft > 0.0 ? clamp(in_front / soft, 0.0, 1.0) : float(in_front >= 0.0);
+}
+
 // Soft edge against the scene: 0 behind it, rising to 1 over soft_m in front of it. It also works where the target has
 // the depth attached. `terms` are depth_a, depth_b, far_depth and soft_m of the view, from a vertex: in a fragment
 // shader software Vulkan reads a uniform buffer lane by lane.
@@ -17,7 +23,7 @@ float soft_edge(float distance, vec4 terms)
 {
     const float stored = buffer_depth(PIXEL_HERE);
     const float in_front = stored == terms.z ? 1e9 : terms.y / (terms.x + stored) - distance;
-    return terms.w > 0.0 ? clamp(in_front / terms.w, 0.0, 1.0) : float(in_front >= 0.0);
+    return soft_step(in_front, terms.w);
 }
 
 float soft_edge(float distance)

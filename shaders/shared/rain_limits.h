@@ -16,6 +16,7 @@
 /* Flags of rain's streak pipelines. */
 #define VIRGA_RAIN_STREAKS_DEPTH 1    /* the scene's depth can be read */
 #define VIRGA_RAIN_STREAKS_LINES 2    /* line primitives instead of quads of two triangles */
+#define VIRGA_RAIN_STREAKS_LENS  4    /* (wide) the view has an aperture: the scene's edges are out of focus, too */
 #define VIRGA_RAIN_MAX_PANES     8    /* that catch drops in a frame */
 #define VIRGA_RAIN_MAX_HITS      8192 /* drops that hit a pane in a step */
 #define VIRGA_RAIN_MAX_VIEWS     16   /* prepares per frame */

@@ -75,6 +75,8 @@ typedef struct shot {
     float aperture_m, focus_m;
     host_buffer streaks, prepared, slots, order;
     float scene_depth; /* depth buffer value */
+    uint32_t wall_top; /* first row with a nearer depth; 0: no row has it */
+    float wall_depth;
     bool give_depth, reversed;
     int only;  /* index of the one streak to draw */
     bool wide; /* draw it as a wide one */
@@ -179,6 +181,12 @@ static inline void record_scene_depth(const shot *s, VkCommandBuffer cmd)
     const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
     host_target_begin_plate(&s->picture, cmd);
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
+    if (s->wall_top) {
+        const VkClearAttachment wall = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {s->wall_depth, 0}}};
+        const VkClearRect rows = {
+            {{0, (int32_t)s->wall_top}, {s->picture.width, s->picture.height - s->wall_top}}, 0, 1};
+        vkCmdClearAttachments(cmd, 1, &wall, 1, &rows);
+    }
     host_target_end_plate(&s->picture, cmd);
 }
 

@@ -416,6 +416,61 @@ static void streaks_end_at_the_scene_over_soft_m(void **state)
     close_shot(&s);
 }
 
+/* The top of a wall at 0.7 of a drop's distance is 6 px below the drop, whose disc has a radius of 5 px and is drawn
+ * 7 px long. `ratio`: the wall's circle of confusion over the drop's. Fills the picture without and with the wall. */
+static uint32_t draw_before_wall(shot *s, double ratio, float **open, float **walled)
+{
+    double distance = 0;
+    open_shot(s, 40);
+    rain_of_big_drops(s);
+    add_picture(s, 960, 720);
+    s->f.settings.streak_gain = 100;
+    s->f.settings.soft_m = 0;
+    s->f.settings.haze = 0;
+    apply_settings(s);
+    s->shutter_s = 1.0 / 2000;
+    aim_level(s);
+    draw_frame(s, 0.2);
+    const uint32_t id = streak_list(s)[choose_streak(s, &distance)].id;
+    s->wide = s->give_depth = true;
+    /* (1/f - 1/0.7z) = ratio (1/f - 1/z) */
+    const double inverse_focus = (1 / 0.7 - ratio) / (1 - ratio) / distance;
+    s->focus_m = (float)(1 / inverse_focus);
+    s->aperture_m = (float)(10 / (inverse_focus - 1 / distance) / (fabs((double)s->camera.clip_from_view[5]) * 360));
+    const size_t bytes = (size_t)s->picture.width * s->picture.height * 4 * sizeof(float);
+    *open = memcpy(malloc(bytes), draw_only(s, id), bytes);
+    const virga_streak_gpu *streak = streak_list(s);
+    while (streak->id != id)
+        streak++;
+    const double middle = 360 * (1 + 0.5 * ((double)streak->head[1] + (double)streak->tail[1]));
+    s->wall_top = (uint32_t)lround(middle + 6);
+    s->wall_depth = stored_depth(s, 0.7 * distance);
+    *walled = memcpy(malloc(bytes), draw_only(s, id), bytes);
+    return s->wall_top;
+}
+
+/* Behind a wall in focus a disc ends at the wall. Behind one that is as far out of focus as the drop, it does not: the
+ * drop itself is not hidden. */
+static void a_disc_out_of_focus_ends_at_what_is_in_focus_only(void **state)
+{
+    (void)state;
+    for (int blurred = 0; blurred < 2; blurred++) {
+        shot s;
+        float *open, *walled;
+        double below = 0;
+        const uint32_t top = draw_before_wall(&s, blurred ? 0.75 : 0, &open, &walled);
+        for (uint32_t i = 0; i < s.picture.width * s.picture.height; i++) {
+            const bool hidden = !blurred && i / s.picture.width >= top;
+            below += i / s.picture.width >= top ? (double)open[4 * i + 3] : 0;
+            assert_true(fabs((double)walled[4 * i + 3] - (hidden ? 0 : (double)open[4 * i + 3])) < 1e-6);
+        }
+        assert_true(below > 0.01 * sum_of(&s, open, 3));
+        free(open);
+        free(walled);
+        close_shot(&s);
+    }
+}
+
 /* With soft_m 0 it is a step. */
 static void without_softness_the_scene_cuts(void **state)
 {
@@ -453,6 +508,7 @@ int main(void)
         cmocka_unit_test(haze_alone_needs_depth_and_a_begun_frame),
         cmocka_unit_test(streaks_end_at_the_scene_over_soft_m),
         cmocka_unit_test(without_softness_the_scene_cuts),
+        cmocka_unit_test(a_disc_out_of_focus_ends_at_what_is_in_focus_only),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

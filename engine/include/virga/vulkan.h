@@ -561,8 +561,9 @@ typedef struct virga_view {
     double open_camera_s;
 
     /* [0; 1] diameter of the lens opening (m). Streaks nearer or farther than focus_m get as wide as the lens blurs a
-     * point there, with the same coverage in all. A 50 mm lens at f/2 has 0.025. All other water is as sharp as the
-     * scene. Default 0: everything is sharp. */
+     * point there, with the same coverage in all. With `depth`, the scene's edges before them are as blurred; without
+     * it an attached depth buffer cuts them. A 50 mm lens at f/2 has 0.025. All other water is as sharp as the scene.
+     * Default 0: everything is sharp. */
     float aperture_m;
 
     /* [0; 1e6] view depth that is sharp (m). 0: infinity. Default 0. */

@@ -9,6 +9,7 @@
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
 #include "gpu/encode.glsl"
+#include "lens_edge.glsl"
 
 layout(location = 0) noperspective in vec4 streak_position;
 layout(location = 1) flat in vec4 center_alpha;
@@ -45,11 +46,15 @@ void main()
 {
     // Before any discard: derivatives are undefined after it.
     const vec2 across = vec2(dFdx(streak_position.x), dFdy(streak_position.x));
+    const vec2 onward = vec2(dFdx(streak_position.y), dFdy(streak_position.y));
     const float half_width = shape.x, body_px = shape.y, path_px = shape.z, focus = shape.w;
     const float u = min(abs(streak_position.x) / half_width, 1.0);
     float alpha =
         center_alpha.a * streak_capsule(abs(streak_position.x), half_width, streak_position.y, path_px, body_px);
-    if (HAS_DEPTH)
+    if (HAS_LENS)
+        alpha *= mix(lens_edge(streak_position.xy, half_width, path_px, mat2(across, onward), streak_position.w,
+                               depth_terms), soft_edge(streak_position.w, depth_terms), focus);
+    else if (HAS_DEPTH)
         alpha *= soft_edge(streak_position.w, depth_terms);
     if (alpha <= 0.0)
         discard;

@@ -22,6 +22,9 @@ void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
+    // What hides a drop out of focus is found by the pixel, see lens_edge.glsl. It passes every test of depth.
+    if (HAS_LENS && streak.focus < 1.0)
+        gl_Position.z = (1.0 - view.far_depth) * gl_Position.w;
     streak_position = vec4(streak.across, streak.along, streak_phase(streak), streak.distance);
     center_alpha = vec4(streak.center, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
