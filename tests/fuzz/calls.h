@@ -71,7 +71,8 @@ struct calls_device;
 typedef struct calls {
     uint64_t random;
     const struct calls_device *device;
-    bool lies; /* frames are said to be complete that are not */
+    bool lies;    /* frames are said to be complete that are not */
+    bool careful; /* mistakes are rare */
     virga_context *contexts[CALLS_CONTEXTS];
     bool lost[CALLS_CONTEXTS + 1];
     calls_handle handles[CALLS_TYPES][CALLS_SLOTS];
@@ -114,6 +115,8 @@ extern const calls_device calls_stand_in, calls_lavapipe;
 /* A number below `count`. True once in `n`. */
 uint32_t calls_below(calls *c, uint32_t count);
 bool calls_once_in(calls *c, uint32_t n);
+/* The same for mistakes of a host and failures of a device: rarer in careful sequences, which so get farther. */
+bool calls_slip(calls *c, uint32_t n);
 /* Mostly in a range; sometimes far out of it, or no number. */
 double calls_number(calls *c, double low, double high);
 void calls_floats(calls *c, float *values, uint32_t count, double low, double high);

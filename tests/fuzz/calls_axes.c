@@ -25,8 +25,8 @@ void call_virga_world_position(calls *c)
     double position[3], out[3];
     fill_world(c, &world);
     calls_doubles(c, position, 3, -100, 100);
-    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_position, calls_once_in(c, 12) ? NULL : &world,
-              calls_once_in(c, 12) ? NULL : position, calls_once_in(c, 12) ? NULL : out);
+    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_position, calls_slip(c, 12) ? NULL : &world,
+              calls_slip(c, 12) ? NULL : position, calls_slip(c, 12) ? NULL : out);
 }
 
 void call_virga_world_direction(calls *c)
@@ -35,8 +35,8 @@ void call_virga_world_direction(calls *c)
     float direction[3], out[3];
     fill_world(c, &world);
     calls_floats(c, direction, 3, -1, 1);
-    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_direction, calls_once_in(c, 12) ? NULL : &world,
-              calls_once_in(c, 12) ? NULL : direction, calls_once_in(c, 12) ? NULL : out);
+    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_direction, calls_slip(c, 12) ? NULL : &world,
+              calls_slip(c, 12) ? NULL : direction, calls_slip(c, 12) ? NULL : out);
 }
 
 void call_virga_world_mesh(calls *c)
@@ -45,23 +45,22 @@ void call_virga_world_mesh(calls *c)
     float matrix[12], out[12];
     fill_world(c, &world);
     calls_floats(c, matrix, 12, -2, 2);
-    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_mesh, calls_once_in(c, 12) ? NULL : &world,
-              calls_once_in(c, 12) ? NULL : matrix, calls_once_in(c, 12) ? NULL : out);
+    CALLS_TRY(c, 0, CALLS_SILENT, virga_world_mesh, calls_slip(c, 12) ? NULL : &world,
+              calls_slip(c, 12) ? NULL : matrix, calls_slip(c, 12) ? NULL : out);
 }
 
-#define CAMERA(name)                                                                                        \
-    void call_virga_world_##name(calls *c)                                                                  \
-    {                                                                                                       \
-        virga_world world;                                                                                  \
-        virga_view view, out = virga_default_view();                                                        \
-        double position[3];                                                                                 \
-        fill_world(c, &world);                                                                              \
-        calls_fill_view(c, &view);                                                                          \
-        calls_doubles(c, position, 3, -100, 100);                                                           \
-        CALLS_TRY(c, 0, CALLS_SILENT, virga_world_##name, calls_once_in(c, 12) ? NULL : &world,             \
-                  calls_once_in(c, 12) ? NULL : view.view_from_world,                                       \
-                  calls_once_in(c, 12) ? NULL : view.clip_from_view, calls_once_in(c, 2) ? NULL : position, \
-                  calls_once_in(c, 12) ? NULL : &out);                                                      \
+#define CAMERA(name)                                                                                               \
+    void call_virga_world_##name(calls *c)                                                                         \
+    {                                                                                                              \
+        virga_world world;                                                                                         \
+        virga_view view, out = virga_default_view();                                                               \
+        double position[3];                                                                                        \
+        fill_world(c, &world);                                                                                     \
+        calls_fill_view(c, &view);                                                                                 \
+        calls_doubles(c, position, 3, -100, 100);                                                                  \
+        CALLS_TRY(c, 0, CALLS_SILENT, virga_world_##name, calls_slip(c, 12) ? NULL : &world,                       \
+                  calls_slip(c, 12) ? NULL : view.view_from_world, calls_slip(c, 12) ? NULL : view.clip_from_view, \
+                  calls_once_in(c, 2) ? NULL : position, calls_slip(c, 12) ? NULL : &out);                         \
     }
 CAMERA(camera)
 CAMERA(open_camera)

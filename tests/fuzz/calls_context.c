@@ -49,9 +49,9 @@ void call_virga_check_device(calls *c)
     virga_context_def def = {0};
     c->device->define(c, 0, &def);
     const size_t size = calls_below(c, sizeof reason + 1);
-    const virga_result result = virga_check_device(
-        calls_once_in(c, 8) ? NULL : def.get_instance_proc_addr, calls_once_in(c, 8) ? NULL : def.instance,
-        calls_once_in(c, 8) ? NULL : def.physical_device, calls_once_in(c, 4) ? NULL : reason, size);
+    const virga_result result =
+        virga_check_device(calls_slip(c, 8) ? NULL : def.get_instance_proc_addr, calls_slip(c, 8) ? NULL : def.instance,
+                           calls_slip(c, 8) ? NULL : def.physical_device, calls_once_in(c, 4) ? NULL : reason, size);
     if (result > 0)
         calls_wrong(c, __func__, "returned a remark");
 }
@@ -127,7 +127,7 @@ static void fill_context_def(calls *c, uint32_t index, virga_context_def *out)
     out->log = log_line;
     out->log_user = c;
     out->log_repeats = true;
-    out->frames_in_flight = 1 + calls_below(c, 4);
+    out->frames_in_flight = c->careful ? 3 : 1 + calls_below(c, 4);
     out->timings = !calls_once_in(c, 4);
     out->host_memory = (virga_host_memory){c, allocate, release};
     if (calls_once_in(c, 3))
@@ -173,7 +173,7 @@ void call_virga_context_destroy(calls *c)
     const uint32_t index = calls_some_context(c);
     if (calls_once_in(c, 3))
         CALLS_DO(c, virga_context_destroy, NULL);
-    if (!calls_once_in(c, 20))
+    if (!calls_slip(c, 20))
         return;
     c->device->begin(c, index); /* what was recorded goes out */
     c->device->wait(c, index);
@@ -191,13 +191,13 @@ void call_virga_context_destroy(calls *c)
 void call_virga_frame_begin(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     calls_frames *f = &c->frames[index];
     if (!context) {
         CALLS_TRY(c, index, CALLS_WRONG | CALLS_SILENT, virga_frame_begin, NULL, 1, 0);
         return;
     }
-    uint64_t frame = f->begun + 1 + (calls_once_in(c, 10) ? calls_below(c, 3) : 0);
+    uint64_t frame = f->begun + 1 + (calls_slip(c, 10) ? calls_below(c, 3) : 0);
     uint64_t completed = f->begun > 1 && calls_once_in(c, 2) ? f->begun - 1 : f->begun;
     completed = completed < f->completed ? f->completed : completed;
     c->device->begin(c, index); /* submits or drops the last one */
@@ -216,7 +216,7 @@ void call_virga_frame_begin(calls *c)
 void call_virga_frame_completed(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     calls_frames *f = &c->frames[index];
     /* What is recorded now is not executed yet. */
     uint64_t completed = f->begun ? f->begun - 1 : 0;
@@ -233,7 +233,7 @@ void call_virga_frame_completed(calls *c)
 void call_virga_frame_dropped(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     calls_frames *f = &c->frames[index];
     const uint32_t flags = context ? CALLS_PLAIN : CALLS_WRONG | CALLS_SILENT;
     const uint64_t frame = calls_once_in(c, 3) ? calls_below(c, 6) : f->begun;
@@ -245,7 +245,7 @@ void call_virga_frame_dropped(calls *c)
 
 void call_virga_frames_lost(calls *c)
 {
-    if (virga_frames_lost(calls_once_in(c, 8) ? NULL : c->contexts[calls_some_context(c)]) > c->made)
+    if (virga_frames_lost(calls_slip(c, 8) ? NULL : c->contexts[calls_some_context(c)]) > c->made)
         calls_wrong(c, __func__, "more frames than there were calls");
 }
 
@@ -254,7 +254,7 @@ void call_virga_frames_lost(calls *c)
 void call_virga_pipelines_build(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     uint32_t left = 0;
     const uint32_t count = calls_once_in(c, 3) ? UINT32_MAX : calls_below(c, 40);
     const uint32_t flags = context ? CALLS_PLAIN : CALLS_WRONG | CALLS_SILENT;
@@ -267,7 +267,7 @@ void call_virga_pipelines_build(calls *c)
 void call_virga_pipeline_cache_get(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     size_t size = calls_below(c, 100);
     char *data = calls_once_in(c, 3) ? NULL : malloc(size + 1);
     const bool wrong = !context || calls_once_in(c, 10);
@@ -282,7 +282,7 @@ void call_virga_memory_get(calls *c)
 {
     virga_memory_stats stats;
     const uint32_t index = calls_some_context(c);
-    CALLS_DO(c, virga_memory_get, calls_once_in(c, 8) ? NULL : c->contexts[index], calls_once_in(c, 8) ? NULL : &stats);
+    CALLS_DO(c, virga_memory_get, calls_slip(c, 8) ? NULL : c->contexts[index], calls_slip(c, 8) ? NULL : &stats);
 }
 
 void call_virga_timings_get(calls *c)
@@ -290,8 +290,8 @@ void call_virga_timings_get(calls *c)
     virga_pass_time times[8];
     const uint32_t capacity = calls_below(c, 9);
     c->made++;
-    const uint32_t count = virga_timings_get(calls_once_in(c, 8) ? NULL : c->contexts[calls_some_context(c)],
-                                             calls_once_in(c, 8) ? NULL : times, capacity);
+    const uint32_t count = virga_timings_get(calls_slip(c, 8) ? NULL : c->contexts[calls_some_context(c)],
+                                             calls_slip(c, 8) ? NULL : times, capacity);
     if (count > 4096)
         calls_wrong(c, __func__, "has more passes than there are");
 }
@@ -308,11 +308,11 @@ void call_virga_default_target_def(calls *c)
 void call_virga_target_create(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     virga_target_def def;
     virga_target *made = NULL;
     calls_fill_target_def(c, &def);
-    const bool wrong = !context || calls_once_in(c, 20);
+    const bool wrong = !context || calls_slip(c, 20);
     const uint32_t flags = wrong ? CALLS_WRONG | (context ? 0 : CALLS_SILENT) : CALLS_PLAIN;
     const virga_result result =
         CALLS_TRY(c, index, flags, virga_target_create, context, wrong && context ? NULL : &def, &made);
@@ -362,7 +362,7 @@ PURE(virga_lens_breathing, calls_number(c, 0, 1), calls_number(c, 0, 10))
 void call_virga_drop_phase_moments(calls *c)
 {
     double moments[3];
-    CALLS_DO(c, virga_drop_phase_moments, calls_once_in(c, 8) ? NULL : moments);
+    CALLS_DO(c, virga_drop_phase_moments, calls_slip(c, 8) ? NULL : moments);
 }
 
 void call_virga_sizes_density(calls *c)
@@ -371,8 +371,8 @@ void call_virga_sizes_density(calls *c)
     double diameters[4], numbers[4];
     calls_fill_sizes(c, &sizes, diameters, numbers);
     need_finite(c, __func__,
-                virga_sizes_density(calls_once_in(c, 12) ? NULL : &sizes, calls_number(c, 0, 200),
-                                    calls_number(c, 0.3, 2), calls_number(c, 0, 0.01)));
+                virga_sizes_density(calls_slip(c, 12) ? NULL : &sizes, calls_number(c, 0, 200), calls_number(c, 0.3, 2),
+                                    calls_number(c, 0, 0.01)));
 }
 
 void call_virga_sizes_landing_share(calls *c)
@@ -381,7 +381,7 @@ void call_virga_sizes_landing_share(calls *c)
     double diameters[4], numbers[4];
     calls_fill_sizes(c, &sizes, diameters, numbers);
     need_finite(c, __func__,
-                virga_sizes_landing_share(calls_once_in(c, 12) ? NULL : &sizes, calls_number(c, 0, 200),
+                virga_sizes_landing_share(calls_slip(c, 12) ? NULL : &sizes, calls_number(c, 0, 200),
                                           calls_number(c, 0.3, 2), calls_number(c, 0, 0.01)));
 }
 
@@ -391,9 +391,9 @@ void call_virga_sizes_densities(calls *c)
     double diameters[4], numbers[4], at[3], densities[3];
     calls_fill_sizes(c, &sizes, diameters, numbers);
     calls_doubles(c, at, 3, 0, 0.01);
-    CALLS_TRY(c, 0, CALLS_SILENT, virga_sizes_densities, calls_once_in(c, 12) ? NULL : &sizes, calls_number(c, 0, 200),
-              calls_number(c, 0.3, 2), calls_below(c, 4), calls_once_in(c, 8) ? NULL : at,
-              calls_once_in(c, 8) ? NULL : densities);
+    CALLS_TRY(c, 0, CALLS_SILENT, virga_sizes_densities, calls_slip(c, 12) ? NULL : &sizes, calls_number(c, 0, 200),
+              calls_number(c, 0.3, 2), calls_below(c, 4), calls_slip(c, 8) ? NULL : at,
+              calls_slip(c, 8) ? NULL : densities);
 }
 
 void call_virga_default_lighting(calls *c)

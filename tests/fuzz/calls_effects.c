@@ -45,17 +45,17 @@ static void destroy_one(calls *c, calls_type type)
     {                                                                                                                \
         virga_##name##_def def;                                                                                      \
         calls_fill_##name##_def(c, &def);                                                                            \
-        if (virga_##name##_estimate(calls_once_in(c, 8) ? NULL : &def) >> 44)                                        \
+        if (virga_##name##_estimate(calls_slip(c, 8) ? NULL : &def) >> 44)                                           \
             calls_wrong(c, __func__, "is beyond all memory");                                                        \
     }                                                                                                                \
     void call_virga_##name##_create(calls *c)                                                                        \
     {                                                                                                                \
         const uint32_t index = calls_some_context(c);                                                                \
-        virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];                                   \
+        virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];                                      \
         virga_##name##_def def;                                                                                      \
         virga_##name *object = NULL;                                                                                 \
         calls_fill_##name##_def(c, &def);                                                                            \
-        const bool wrong = calls_once_in(c, 30);                                                                     \
+        const bool wrong = calls_slip(c, 30);                                                                        \
         const uint32_t flags = calls_of(context, wrong ? CALLS_WRONG : CALLS_PLAIN);                                 \
         const virga_result result =                                                                                  \
             CALLS_TRY(c, index, flags, virga_##name##_create, context, wrong ? NULL : &def, &object);                \
@@ -73,7 +73,7 @@ static void destroy_one(calls *c, calls_type type)
     void call_virga_##name##_get(calls *c)                                                                           \
     {                                                                                                                \
         virga_##name##_settings settings;                                                                            \
-        CALLS_DO(c, virga_##name##_get, calls_pick(c, type).object, calls_once_in(c, 8) ? NULL : &settings);         \
+        CALLS_DO(c, virga_##name##_get, calls_pick(c, type).object, calls_slip(c, 8) ? NULL : &settings);            \
     }                                                                                                                \
     void call_virga_##name##_set(calls *c)                                                                           \
     {                                                                                                                \
@@ -82,17 +82,17 @@ static void destroy_one(calls *c, calls_type type)
         if (h.object && calls_once_in(c, 2))                                                                         \
             virga_##name##_get(h.object, &settings);                                                                 \
         __VA_ARGS__;                                                                                                 \
-        const bool wrong = calls_once_in(c, 30);                                                                     \
+        const bool wrong = calls_slip(c, 30);                                                                        \
         CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_##name##_set, h.object, \
                   wrong ? NULL : &settings);                                                                         \
     }
 
-#define COMMON(name, type, ...)                                                                                 \
-    BASIC(name, type, __VA_ARGS__)                                                                              \
-    void call_virga_##name##_stats_get(calls *c)                                                                \
-    {                                                                                                           \
-        virga_##name##_stats stats;                                                                             \
-        CALLS_DO(c, virga_##name##_stats_get, calls_pick(c, type).object, calls_once_in(c, 8) ? NULL : &stats); \
+#define COMMON(name, type, ...)                                                                              \
+    BASIC(name, type, __VA_ARGS__)                                                                           \
+    void call_virga_##name##_stats_get(calls *c)                                                             \
+    {                                                                                                        \
+        virga_##name##_stats stats;                                                                          \
+        CALLS_DO(c, virga_##name##_stats_get, calls_pick(c, type).object, calls_slip(c, 8) ? NULL : &stats); \
     }
 
 #define WILD_SETTINGS(...)                                \
@@ -200,7 +200,7 @@ void call_virga_ground_draw_wet(calls *c)
     virga_ground_wet wet = virga_default_ground_wet();
     virga_view view;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = with_target(h, target, CALLS_RECORDS | CALLS_INSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     CALLS_WILD_ALL(c, &wet);
@@ -225,13 +225,13 @@ void call_virga_environment_record(calls *c)
     virga_view view;
     virga_environment_info info = {.kind = VIRGA_ENVIRONMENT_PANORAMA, .width = 8, .height = 8, .view = &view};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     calls_fill_image(c, VK_FORMAT_R16G16B16A16_SFLOAT, &info.image);
     info.kind = calls_once_in(c, 3) ? VIRGA_ENVIRONMENT_PICTURE : VIRGA_ENVIRONMENT_PANORAMA;
-    info.view = calls_once_in(c, 8) ? NULL : &view;
-    info.width = calls_once_in(c, 8) ? 0 : info.width;
+    info.view = calls_slip(c, 8) ? NULL : &view;
+    info.width = calls_slip(c, 8) ? 0 : info.width;
     calls_floats(c, info.image_from_world, calls_once_in(c, 8) ? 9 : 0, -1, 1);
     calls_floats(c, info.rest_sh[0], 27, -1, 2);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -241,14 +241,14 @@ void call_virga_environment_record(calls *c)
 void call_virga_environment_harmonics(calls *c)
 {
     float sh[9][3];
-    CALLS_DO(c, virga_environment_harmonics, calls_pick(c, CALLS_ENVIRONMENT).object, calls_once_in(c, 8) ? NULL : sh);
+    CALLS_DO(c, virga_environment_harmonics, calls_pick(c, CALLS_ENVIRONMENT).object, calls_slip(c, 8) ? NULL : sh);
 }
 
 void call_virga_environment_panorama(calls *c)
 {
     virga_image panorama;
     CALLS_DO(c, virga_environment_panorama, calls_pick(c, CALLS_ENVIRONMENT).object,
-             calls_once_in(c, 8) ? NULL : &panorama);
+             calls_slip(c, 8) ? NULL : &panorama);
 }
 
 /* Some effects of a scene may have recorded before one refuses. */

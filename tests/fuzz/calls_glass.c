@@ -22,7 +22,7 @@ void call_virga_glass_fill_windshield(calls *c)
                    rows = calls_below(c, 10);
     calls_floats(c, numbers, 4, 0, 2);
     CALLS_DO(c, virga_glass_fill_windshield, numbers[0], numbers[1], numbers[2], numbers[3], columns, rows,
-             calls_once_in(c, 8) ? NULL : positions);
+             calls_slip(c, 8) ? NULL : positions);
 }
 
 void call_virga_glass_fill_from_mesh(calls *c)
@@ -36,20 +36,20 @@ void call_virga_glass_fill_from_mesh(calls *c)
         memcpy(uvs, (float[]){-9, -9, 30, -9, -9, 30, 30, 30}, sizeof uvs);
     calls_floats(c, size, 2, 0.1, 2);
     for (int i = 0; i < 6; i++)
-        indices[i] = calls_below(c, calls_once_in(c, 30) ? 9 : 4);
-    CALLS_TRY(c, 0, CALLS_SILENT, virga_glass_fill_from_mesh, calls_once_in(c, 12) ? NULL : positions,
-              calls_once_in(c, 12) ? NULL : uvs, 4, calls_once_in(c, 12) ? NULL : indices,
+        indices[i] = calls_below(c, calls_slip(c, 30) ? 9 : 4);
+    CALLS_TRY(c, 0, CALLS_SILENT, virga_glass_fill_from_mesh, calls_slip(c, 12) ? NULL : positions,
+              calls_slip(c, 12) ? NULL : uvs, 4, calls_slip(c, 12) ? NULL : indices,
               calls_once_in(c, 2) ? 6 : calls_below(c, 7), size[0], size[1], 2 + calls_below(c, 4),
-              calls_once_in(c, 4) ? 0 : 2 + calls_below(c, 4), calls_once_in(c, 12) ? NULL : grid,
-              calls_once_in(c, 8) ? NULL : mask);
+              calls_once_in(c, 4) ? 0 : 2 + calls_below(c, 4), calls_slip(c, 12) ? NULL : grid,
+              calls_slip(c, 8) ? NULL : mask);
 }
 
 void call_virga_glass_rectangle(calls *c)
 {
     float corner[3], u[3], v[3], width, height;
-    CALLS_DO(c, virga_glass_rectangle, calls_pick(c, CALLS_GLASS).object, calls_once_in(c, 8) ? NULL : corner,
-             calls_once_in(c, 8) ? NULL : u, calls_once_in(c, 8) ? NULL : v, calls_once_in(c, 8) ? NULL : &width,
-             calls_once_in(c, 8) ? NULL : &height);
+    CALLS_DO(c, virga_glass_rectangle, calls_pick(c, CALLS_GLASS).object, calls_slip(c, 8) ? NULL : corner,
+             calls_slip(c, 8) ? NULL : u, calls_slip(c, 8) ? NULL : v, calls_slip(c, 8) ? NULL : &width,
+             calls_slip(c, 8) ? NULL : &height);
 }
 
 void call_virga_glass_wiper_deg(calls *c)
@@ -57,14 +57,14 @@ void call_virga_glass_wiper_deg(calls *c)
     virga_glass_wiper wiper = virga_default_glass_wiper();
     CALLS_WILD_ALL(c, &wiper);
     c->made++;
-    (void)virga_glass_wiper_deg(calls_once_in(c, 8) ? NULL : &wiper, calls_number(c, 0, 100));
+    (void)virga_glass_wiper_deg(calls_slip(c, 8) ? NULL : &wiper, calls_number(c, 0, 100));
 }
 
 void call_virga_glass_apply_kind(calls *c)
 {
     virga_glass_settings settings = virga_default_glass_settings();
     CALLS_DO(c, virga_glass_apply_kind, (virga_glass_kind)((int)calls_below(c, 9) - 1),
-             calls_once_in(c, 8) ? NULL : &settings);
+             calls_slip(c, 8) ? NULL : &settings);
 }
 
 void call_virga_glass_shape_set(calls *c)
@@ -73,14 +73,14 @@ void call_virga_glass_shape_set(calls *c)
     static float positions[4 * 4 * 3], bumps[16];
     static uint8_t mask[16];
     virga_glass_shape shape = virga_default_glass_shape();
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     virga_glass_fill_windshield(0.2f, 0.15f, 30, 0, 4, 4, positions);
     if (calls_once_in(c, 4))
         calls_floats(c, positions, 48, -1, 1);
     calls_floats(c, bumps, 16, 0, 0.001);
     memset(mask, 255, sizeof mask);
     if (calls_once_in(c, 2)) {
-        shape.positions = calls_once_in(c, 8) ? NULL : positions;
+        shape.positions = calls_slip(c, 8) ? NULL : positions;
         shape.columns = calls_below(c, 5);
         shape.rows = calls_below(c, 5);
     }
@@ -108,7 +108,7 @@ void call_virga_glass_step(calls *c)
     double diameters[4], numbers[4];
     virga_glass_step_info info = {.rate_mm_h = 20};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_sizes(c, &sizes, diameters, numbers);
     calls_fill_rotation(c, info.world_from_pane);
@@ -134,16 +134,16 @@ void call_virga_glass_drops(calls *c)
 {
     virga_glass_buffer drops;
     uint32_t count;
-    CALLS_DO(c, virga_glass_drops, calls_pick(c, CALLS_GLASS).object, calls_once_in(c, 8) ? NULL : &drops,
-             calls_once_in(c, 8) ? NULL : &count);
+    CALLS_DO(c, virga_glass_drops, calls_pick(c, CALLS_GLASS).object, calls_slip(c, 8) ? NULL : &drops,
+             calls_slip(c, 8) ? NULL : &count);
 }
 
 void call_virga_glass_surface(calls *c)
 {
     virga_glass_buffer surface;
     uint32_t columns, rows;
-    CALLS_DO(c, virga_glass_surface, calls_pick(c, CALLS_GLASS).object, calls_once_in(c, 8) ? NULL : &surface,
-             calls_once_in(c, 8) ? NULL : &columns, calls_once_in(c, 8) ? NULL : &rows);
+    CALLS_DO(c, virga_glass_surface, calls_pick(c, CALLS_GLASS).object, calls_slip(c, 8) ? NULL : &surface,
+             calls_slip(c, 8) ? NULL : &columns, calls_slip(c, 8) ? NULL : &rows);
 }
 
 void call_virga_glass_prepare(calls *c)
@@ -152,7 +152,7 @@ void call_virga_glass_prepare(calls *c)
     virga_view view;
     virga_glass_pose pose = {0};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     calls_fill_rotation(c, pose.world_from_pane);
@@ -165,5 +165,5 @@ void call_virga_glass_prepare(calls *c)
 void call_virga_glass_map_get(calls *c)
 {
     virga_glass_map map;
-    CALLS_DO(c, virga_glass_map_get, calls_pick(c, CALLS_GLASS).object, calls_once_in(c, 8) ? NULL : &map);
+    CALLS_DO(c, virga_glass_map_get, calls_pick(c, CALLS_GLASS).object, calls_slip(c, 8) ? NULL : &map);
 }

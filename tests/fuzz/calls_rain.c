@@ -48,7 +48,7 @@ void call_virga_rain_import_occlusion(calls *c)
         return; /* an array of as many maps as were planned, which the device has not */
     image.extent = (VkExtent3D){calls_below(c, 3) * 32, 32, 1};
     image.layers = calls_below(c, 13);
-    const bool wrong = calls_once_in(c, 12);
+    const bool wrong = calls_slip(c, 12);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags | (wrong ? CALLS_WRONG : 0), virga_rain_import_occlusion, h.object, cmd,
                   wrong ? NULL : &image);
@@ -57,7 +57,7 @@ void call_virga_rain_import_occlusion(calls *c)
 void call_virga_rain_occlusion_map_get(calls *c)
 {
     virga_rain_occlusion_map map;
-    CALLS_DO(c, virga_rain_occlusion_map_get, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &map);
+    CALLS_DO(c, virga_rain_occlusion_map_get, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &map);
 }
 
 void call_virga_rain_step(calls *c)
@@ -65,7 +65,7 @@ void call_virga_rain_step(calls *c)
     const calls_handle h = calls_pick(c, CALLS_RAIN);
     virga_rain_step_info info = {.dt_s = calls_number(c, 0, 0.05)};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_camera(c, info.camera_m);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -82,20 +82,20 @@ void call_virga_rain_time(calls *c)
 void call_virga_rain_ticks(calls *c)
 {
     uint32_t first, count;
-    CALLS_DO(c, virga_rain_ticks, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &first,
-             calls_once_in(c, 8) ? NULL : &count);
+    CALLS_DO(c, virga_rain_ticks, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &first,
+             calls_slip(c, 8) ? NULL : &count);
 }
 
 void call_virga_rain_wind(calls *c)
 {
     float wind[3];
-    CALLS_DO(c, virga_rain_wind, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : wind);
+    CALLS_DO(c, virga_rain_wind, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : wind);
 }
 
 void call_virga_rain_rainfall_get(calls *c)
 {
     virga_rainfall fall;
-    CALLS_DO(c, virga_rain_rainfall_get, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &fall);
+    CALLS_DO(c, virga_rain_rainfall_get, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &fall);
 }
 
 void call_virga_rain_prepare(calls *c)
@@ -103,7 +103,7 @@ void call_virga_rain_prepare(calls *c)
     const calls_handle h = calls_pick(c, CALLS_RAIN);
     virga_view view;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     const double time_s = calls_once_in(c, 3) ? calls_number(c, 0, 10) : virga_rain_time(h.object);
@@ -122,14 +122,14 @@ void call_virga_rain_draw_haze(calls *c)
     calls_fill_view(c, &view);
     calls_doubles(c, plane, 4, -1, 1);
     if (calls_cmd(c, h.context, &flags, &cmd))
-        CALLS_TRY(c, h.context, flags, virga_rain_draw_haze, h.object, cmd, calls_once_in(c, 20) ? NULL : &view,
+        CALLS_TRY(c, h.context, flags, virga_rain_draw_haze, h.object, cmd, calls_slip(c, 20) ? NULL : &view,
                   calls_once_in(c, 2) ? NULL : plane, target.object);
 }
 
 void call_virga_rain_impacts(calls *c)
 {
     virga_rain_buffer buffer;
-    CALLS_DO(c, virga_rain_impacts, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &buffer);
+    CALLS_DO(c, virga_rain_impacts, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &buffer);
 }
 
 void call_virga_rain_find_hits(calls *c)
@@ -138,7 +138,7 @@ void call_virga_rain_find_hits(calls *c)
     virga_rain_pane pane = {.along_u = {1, 0, 0}, .along_v = {0, 1, 0}, .width_m = 1, .height_m = 1};
     virga_rain_buffer hits;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     CALLS_WILD_ALL(c, &pane);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -150,8 +150,8 @@ void call_virga_rain_drops(calls *c)
     virga_rain_buffer drops;
     uint32_t count;
     double origin[3];
-    CALLS_DO(c, virga_rain_drops, calls_pick(c, CALLS_RAIN).object, calls_once_in(c, 8) ? NULL : &drops,
-             calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : origin);
+    CALLS_DO(c, virga_rain_drops, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &drops,
+             calls_slip(c, 8) ? NULL : &count, calls_slip(c, 8) ? NULL : origin);
 }
 
 void call_virga_rain_write_points(calls *c)
@@ -163,8 +163,8 @@ void call_virga_rain_write_points(calls *c)
     VkCommandBuffer cmd;
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE);
     if (calls_cmd(c, h.context, &flags, &cmd))
-        CALLS_TRY(c, h.context, flags, virga_rain_write_points, h.object, cmd, calls_once_in(c, 8) ? NULL : &points,
-                  calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : origin);
+        CALLS_TRY(c, h.context, flags, virga_rain_write_points, h.object, cmd, calls_slip(c, 8) ? NULL : &points,
+                  calls_slip(c, 8) ? NULL : &count, calls_slip(c, 8) ? NULL : origin);
 }
 
 /* ---- ground */
@@ -214,7 +214,7 @@ void call_virga_ground_step(calls *c)
     virga_occluder meshes[2];
     VkCommandBuffer cmd;
     virga_ground_step_info info = {.mesh_count = calls_fill_occluders(c, meshes, 2), .meshes = meshes};
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_camera(c, info.camera_m);
     fill_camera(c, info.ripple_center_m);
@@ -227,7 +227,7 @@ void call_virga_ground_step(calls *c)
         calls_fill_image(c, VK_FORMAT_R8_UINT, &info.materials.image);
         calls_doubles(c, info.materials.high_m, 2, 0, 10);
         CALLS_WILD(c, &info, kept);
-        if (calls_once_in(c, 12))
+        if (calls_slip(c, 12))
             info.meshes = NULL;
     }
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -242,22 +242,22 @@ void call_virga_ground_refresh_heights(calls *c)
 void call_virga_ground_maps_get(calls *c)
 {
     virga_ground_maps maps;
-    CALLS_DO(c, virga_ground_maps_get, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &maps);
+    CALLS_DO(c, virga_ground_maps_get, calls_pick(c, CALLS_GROUND).object, calls_slip(c, 8) ? NULL : &maps);
 }
 
 void call_virga_ground_cells_get(calls *c)
 {
     virga_ground_cells cells;
-    CALLS_DO(c, virga_ground_cells_get, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &cells);
+    CALLS_DO(c, virga_ground_cells_get, calls_pick(c, CALLS_GROUND).object, calls_slip(c, 8) ? NULL : &cells);
 }
 
-#define GROUND_LIST(name)                                                                                          \
-    void call_virga_ground_##name(calls *c)                                                                        \
-    {                                                                                                              \
-        VkBuffer buffer;                                                                                           \
-        VkDeviceSize size;                                                                                         \
-        CALLS_DO(c, virga_ground_##name, calls_pick(c, CALLS_GROUND).object, calls_once_in(c, 8) ? NULL : &buffer, \
-                 calls_once_in(c, 8) ? NULL : &size);                                                              \
+#define GROUND_LIST(name)                                                                                       \
+    void call_virga_ground_##name(calls *c)                                                                     \
+    {                                                                                                           \
+        VkBuffer buffer;                                                                                        \
+        VkDeviceSize size;                                                                                      \
+        CALLS_DO(c, virga_ground_##name, calls_pick(c, CALLS_GROUND).object, calls_slip(c, 8) ? NULL : &buffer, \
+                 calls_slip(c, 8) ? NULL : &size);                                                              \
     }
 GROUND_LIST(landings)
 GROUND_LIST(spawns)
@@ -271,7 +271,7 @@ void call_virga_splash_step(calls *c)
                        ground = calls_pick(c, CALLS_GROUND);
     virga_splash_step_info info = {.wind_m_s = {1, 0, 0}};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_camera(c, info.camera_m);
     if (ground.context == h.context && ground.object)
@@ -292,7 +292,7 @@ void call_virga_splash_prepare(calls *c)
     const calls_handle h = calls_pick(c, CALLS_SPLASH);
     virga_view view;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -310,13 +310,13 @@ void call_virga_splash_time(calls *c)
 void call_virga_splash_rules(calls *c)
 {
     virga_splash_buffer rules;
-    CALLS_DO(c, virga_splash_rules, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &rules);
+    CALLS_DO(c, virga_splash_rules, calls_pick(c, CALLS_SPLASH).object, calls_slip(c, 8) ? NULL : &rules);
 }
 
 void call_virga_splash_returned_droplets(calls *c)
 {
     virga_splash_buffer list;
-    CALLS_DO(c, virga_splash_returned_droplets, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &list);
+    CALLS_DO(c, virga_splash_returned_droplets, calls_pick(c, CALLS_SPLASH).object, calls_slip(c, 8) ? NULL : &list);
 }
 
 void call_virga_splash_droplets(calls *c)
@@ -324,12 +324,12 @@ void call_virga_splash_droplets(calls *c)
     virga_splash_buffer droplets;
     uint32_t count;
     double anchor[3];
-    CALLS_DO(c, virga_splash_droplets, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &droplets,
-             calls_once_in(c, 8) ? NULL : &count, calls_once_in(c, 8) ? NULL : anchor);
+    CALLS_DO(c, virga_splash_droplets, calls_pick(c, CALLS_SPLASH).object, calls_slip(c, 8) ? NULL : &droplets,
+             calls_slip(c, 8) ? NULL : &count, calls_slip(c, 8) ? NULL : anchor);
 }
 
 void call_virga_splash_handed(calls *c)
 {
     virga_splash_buffer handed;
-    CALLS_DO(c, virga_splash_handed, calls_pick(c, CALLS_SPLASH).object, calls_once_in(c, 8) ? NULL : &handed);
+    CALLS_DO(c, virga_splash_handed, calls_pick(c, CALLS_SPLASH).object, calls_slip(c, 8) ? NULL : &handed);
 }

@@ -21,7 +21,7 @@ static void fill_def(calls *c, virga_scene_def *out, virga_glass_def panes[2])
     out->with_ground = calls_once_in(c, 2);
     out->with_splash = calls_once_in(c, 2) && (out->with_ground || calls_once_in(c, 8));
     out->with_water = calls_once_in(c, 4);
-    out->panes = calls_once_in(c, 12) ? NULL : panes;
+    out->panes = calls_slip(c, 12) ? NULL : panes;
     out->pane_count = calls_once_in(c, 2) ? 0 : calls_below(c, 3);
     if (!c->device->honest && calls_once_in(c, 4))
         CALLS_WILD(c, out, kept);
@@ -40,17 +40,17 @@ void call_virga_scene_estimate(calls *c)
     virga_glass_def panes[2];
     fill_def(c, &def, panes);
     c->made++;
-    (void)virga_scene_estimate(calls_once_in(c, 8) ? NULL : &def);
+    (void)virga_scene_estimate(calls_slip(c, 8) ? NULL : &def);
 }
 
 void call_virga_scene_create(calls *c)
 {
     const uint32_t index = calls_some_context(c);
-    virga_context *context = calls_once_in(c, 30) ? NULL : c->contexts[index];
+    virga_context *context = calls_slip(c, 30) ? NULL : c->contexts[index];
     virga_scene_def def;
     virga_glass_def panes[2];
     virga_scene *scene = NULL;
-    const bool wrong = calls_once_in(c, 30);
+    const bool wrong = calls_slip(c, 30);
     fill_def(c, &def, panes);
     const virga_result result = CALLS_TRY(c, index, calls_of(context, wrong ? CALLS_WRONG : CALLS_PLAIN),
                                           virga_scene_create, context, wrong ? NULL : &def, &scene);
@@ -96,14 +96,14 @@ void call_virga_scene_water(calls *c)
 void call_virga_scene_glass(calls *c)
 {
     c->made++;
-    (void)virga_scene_glass(calls_pick(c, CALLS_SCENE).object, calls_once_in(c, 8) ? UINT32_MAX : calls_below(c, 4));
+    (void)virga_scene_glass(calls_pick(c, CALLS_SCENE).object, calls_slip(c, 8) ? UINT32_MAX : calls_below(c, 4));
 }
 
 void call_virga_scene_lighting_set(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_SCENE);
     virga_lighting lighting;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     calls_fill_lighting(c, &lighting);
     CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_scene_lighting_set, h.object,
               wrong ? NULL : &lighting);
@@ -138,7 +138,7 @@ void call_virga_scene_record(calls *c)
     virga_scene_pane panes[2];
     virga_occluder occluders[2];
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, SCENE_RECORDS | (wrong ? CALLS_WRONG : 0));
     virga_scene_frame frame = {.dt_s = calls_number(c, 0, 0.05), .defer_panes = calls_once_in(c, 3)};
     fill_panes(c, panes);
@@ -150,9 +150,9 @@ void call_virga_scene_record(calls *c)
         frame.views = views;
         frame.view_count = calls_below(c, 3);
     }
-    frame.panes = calls_once_in(c, 8) ? NULL : panes;
+    frame.panes = calls_slip(c, 8) ? NULL : panes;
     frame.occluder_count = calls_fill_occluders(c, occluders, 2);
-    frame.occluders = calls_once_in(c, 4) && !c->device->honest ? NULL : occluders;
+    frame.occluders = calls_slip(c, 4) && !c->device->honest ? NULL : occluders;
     frame.water.particles = c->device->buffer(c);
     frame.water.count = calls_below(c, 100);
     if (calls_once_in(c, 2))
@@ -168,7 +168,7 @@ void call_virga_scene_prepare_panes(calls *c)
     virga_view view;
     virga_scene_pane panes[2];
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = SCENE_RECORDS;
     fill_panes(c, panes);
     calls_fill_view(c, &view);
@@ -192,11 +192,11 @@ void call_virga_quality_name(calls *c)
         calls_wrong(c, __func__, "is NULL");
 }
 
-#define APPLY(name)                                                                                    \
-    void call_virga_##name##_apply_quality(calls *c)                                                   \
-    {                                                                                                  \
-        virga_##name##_def def = virga_default_##name##_def();                                         \
-        CALLS_DO(c, virga_##name##_apply_quality, some_quality(c), calls_once_in(c, 8) ? NULL : &def); \
+#define APPLY(name)                                                                                 \
+    void call_virga_##name##_apply_quality(calls *c)                                                \
+    {                                                                                               \
+        virga_##name##_def def = virga_default_##name##_def();                                      \
+        CALLS_DO(c, virga_##name##_apply_quality, some_quality(c), calls_slip(c, 8) ? NULL : &def); \
     }
 APPLY(rain)
 APPLY(ground)

@@ -49,7 +49,7 @@ static void define(calls *c, uint32_t index, virga_context_def *def)
     def->physical_device = stand_in_physical();
     def->device = stand_in_device(index);
     def->get_instance_proc_addr = stand_in_get;
-    def->queue_family = calls_once_in(c, 20) ? 1 : 0;
+    def->queue_family = calls_slip(c, 20) ? 1 : 0;
     if (calls_once_in(c, 6))
         def->device_memory = (virga_device_memory){c, host_alloc, host_free};
     stand_in.properties.deviceType =
@@ -75,11 +75,11 @@ static void begin(calls *c, uint32_t index)
     /* Failures of the device and of the host's memory, and a lost device, at some call to come. */
     static const VkResult failures[] = {VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY,
                                         VK_ERROR_INITIALIZATION_FAILED, VK_ERROR_DEVICE_LOST};
-    if (calls_once_in(c, 8)) {
+    if (calls_slip(c, 8)) {
         stand_in.fail_in = 1 + calls_below(c, 300);
-        stand_in.failure = failures[calls_below(c, calls_once_in(c, 3) ? 4 : 3)];
+        stand_in.failure = failures[calls_below(c, !c->careful && calls_once_in(c, 3) ? 4 : 3)];
     }
-    if (calls_once_in(c, 8))
+    if (calls_slip(c, 8))
         c->fail_alloc = 1 + calls_below(c, 40);
 }
 
@@ -122,7 +122,7 @@ static void target(calls *c, virga_target_def *def)
     if (def->kind == VIRGA_TARGET_RENDER_PASS && !calls_once_in(c, 10))
         def->render_pass = (VkRenderPass)stand_in_object(VK_OBJECT_TYPE_RENDER_PASS);
     if (def->kind == VIRGA_TARGET_DYNAMIC || calls_once_in(c, 2))
-        def->color_formats[0] = formats[calls_once_in(c, 6) ? calls_below(c, 4) : calls_below(c, 2)];
+        def->color_formats[0] = formats[calls_slip(c, 6) ? calls_below(c, 4) : calls_below(c, 2)];
     def->depth_attached = calls_once_in(c, 2);
     def->depth_format = def->depth_attached ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED;
     def->render_pass_class = calls_below(c, 3);

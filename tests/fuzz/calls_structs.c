@@ -10,9 +10,9 @@ void calls_fill_rotation(calls *c, float m[9])
     const float turn = (float)calls_below(c, 628) / 100, s = sinf(turn), k = cosf(turn);
     const float rotation[9] = {k, 0, -s, 0, 1, 0, s, 0, k};
     memcpy(m, rotation, sizeof rotation);
-    if (calls_once_in(c, 6))
+    if (calls_slip(c, 6))
         memset(m, 0, sizeof rotation);
-    else if (calls_once_in(c, 10))
+    else if (calls_slip(c, 10))
         calls_floats(c, m, 9, -2, 2);
 }
 
@@ -28,14 +28,14 @@ void calls_fill_lighting(calls *c, virga_lighting *out)
 void calls_fill_image(calls *c, VkFormat format, virga_image *image)
 {
     memset(image, 0, sizeof *image);
-    if (calls_once_in(c, 3))
+    if (calls_once_in(c, c->careful ? 8 : 3))
         return;
     c->device->image(c, format, image);
-    if (!c->device->honest && calls_once_in(c, 12))
+    if (!c->device->honest && calls_slip(c, 12))
         image->before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    if (!c->device->honest && calls_once_in(c, 12))
+    if (!c->device->honest && calls_slip(c, 12))
         image->image = VK_NULL_HANDLE;
-    if (!c->device->honest && calls_once_in(c, 12))
+    if (!c->device->honest && calls_slip(c, 12))
         image->format = VK_FORMAT_R32_UINT;
 }
 
@@ -58,7 +58,7 @@ void calls_fill_view(calls *c, virga_view *out)
     calls_doubles(c, out->position_m, 3, -2, 2);
     memcpy(out->open_position_m, out->position_m, sizeof out->position_m);
     out->viewport[2] = out->viewport[3] = CALLS_SIZE;
-    if (calls_once_in(c, 8))
+    if (calls_slip(c, 8))
         calls_floats(c, out->viewport, 4, -10, c->device->honest ? CALLS_SIZE : 5000);
     calls_fill_image(c, VK_FORMAT_D32_SFLOAT, &out->depth);
     calls_fill_image(c, VK_FORMAT_R16G16B16A16_SFLOAT, &out->color);
@@ -85,7 +85,7 @@ uint32_t calls_fill_occluders(calls *c, virga_occluder *occluders, uint32_t coun
             continue;
         KEEP(CALLS_KEPT(virga_occluder, vertices), CALLS_KEPT(virga_occluder, indices),
              CALLS_BOOL(virga_occluder, ground), CALLS_BOOL(virga_occluder, is_dynamic));
-        if (calls_once_in(c, 20))
+        if (calls_slip(c, 20))
             out->vertices = VK_NULL_HANDLE;
     }
     return count;
@@ -99,8 +99,8 @@ void calls_fill_sizes(calls *c, virga_sizes *sizes, double diameters[4], double 
         numbers[i] = calls_number(c, 0, 10);
     }
     *sizes = (virga_sizes){.kind = (virga_sizes_kind)calls_below(c, 4),
-                           .table_diameter_m = calls_once_in(c, 12) ? NULL : diameters,
-                           .table_number = calls_once_in(c, 12) ? NULL : numbers,
+                           .table_diameter_m = calls_slip(c, 12) ? NULL : diameters,
+                           .table_number = calls_slip(c, 12) ? NULL : numbers,
                            .table_count = calls_below(c, 5)};
 }
 
@@ -111,7 +111,7 @@ void calls_fill_target_def(calls *c, virga_target_def *out)
     if (c->device->honest)
         return;
     out->reversed_depth = calls_once_in(c, 4);
-    out->encoding = (virga_encoding)calls_below(c, 4);
+    out->encoding = (virga_encoding)calls_below(c, calls_slip(c, 4) ? 4 : 2);
     out->view_mask = calls_once_in(c, 16) ? calls_below(c, 8) : 0;
     if (calls_once_in(c, 3)) {
         out->color_count = 3;

@@ -5,7 +5,7 @@
 /* What was prepared last for an effect of that type; sometimes none, or a number that nobody was given. */
 static virga_prepared some_view(calls *c, calls_type type)
 {
-    const uint32_t kind = calls_below(c, 6);
+    const uint32_t kind = calls_slip(c, 3) ? calls_below(c, 2) : 2;
     return kind == 0 ? 0 : kind == 1 ? calls_below(c, 100) * 0x10001ull : c->prepared[type];
 }
 
@@ -23,7 +23,7 @@ static uint32_t with_target(calls_handle object, calls_handle target)
         virga_view view;                                                                                 \
         virga_prepared made = 0;                                                                         \
         VkCommandBuffer cmd;                                                                             \
-        const bool wrong = calls_once_in(c, 20);                                                         \
+        const bool wrong = calls_slip(c, 20);                                                            \
         uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));  \
         calls_fill_view(c, &view);                                                                       \
         if (!calls_cmd(c, h.context, &flags, &cmd))                                                      \
@@ -80,7 +80,7 @@ void call_virga_lens_picture_view(calls *c)
 {
     virga_lens_image picture;
     CALLS_DO(c, virga_lens_picture_view, calls_pick(c, CALLS_LENS).object, some_view(c, CALLS_LENS),
-             calls_once_in(c, 8) ? NULL : &picture);
+             calls_slip(c, 8) ? NULL : &picture);
 }
 
 /* A scene's functions call those of several effects: some may have recorded before one refuses. */
@@ -90,7 +90,8 @@ void call_virga_scene_draw_view(calls *c)
     VkCommandBuffer cmd;
     uint32_t flags = with_target(h, target) & ~(uint32_t)CALLS_RECORDS;
     if (calls_cmd(c, h.context, &flags, &cmd))
-        CALLS_TRY(c, h.context, flags, virga_scene_draw_view, h.object, cmd, target.object, calls_below(c, 10));
+        CALLS_TRY(c, h.context, flags, virga_scene_draw_view, h.object, cmd, target.object,
+                  calls_below(c, calls_slip(c, 3) ? 10 : 2));
 }
 
 void call_virga_scene_prepare_panes_view(calls *c)
@@ -105,7 +106,7 @@ void call_virga_scene_prepare_panes_view(calls *c)
         return;
     flags &= ~(uint32_t)CALLS_WRONG; /* a scene without panes has nothing to do, whatever it is given */
     CALLS_TRY(c, h.context, calls_of(h.object, flags), virga_scene_prepare_panes_view, h.object, cmd,
-              calls_below(c, 10), &view, panes);
+              calls_below(c, calls_slip(c, 3) ? 10 : 2), &view, panes);
 }
 
 /* Water without foam has nothing to draw. */

@@ -20,7 +20,7 @@ void call_virga_water_step(calls *c)
     const calls_handle h = calls_pick(c, CALLS_WATER);
     virga_water_step_info info;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_water_step(c, &info);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -41,7 +41,7 @@ void call_virga_water_prepare(calls *c)
     const calls_handle h = calls_pick(c, CALLS_WATER);
     virga_view view;
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     if (calls_cmd(c, h.context, &flags, &cmd))
@@ -52,36 +52,36 @@ void call_virga_water_surfels(calls *c)
 {
     virga_water_buffer surfels;
     double origin[3];
-    CALLS_DO(c, virga_water_surfels, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &surfels,
-             calls_once_in(c, 8) ? NULL : origin);
+    CALLS_DO(c, virga_water_surfels, calls_pick(c, CALLS_WATER).object, calls_slip(c, 8) ? NULL : &surfels,
+             calls_slip(c, 8) ? NULL : origin);
 }
 
 void call_virga_water_spray(calls *c)
 {
     virga_water_buffer spray;
     double origin[3];
-    CALLS_DO(c, virga_water_spray, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &spray,
-             calls_once_in(c, 8) ? NULL : origin);
+    CALLS_DO(c, virga_water_spray, calls_pick(c, CALLS_WATER).object, calls_slip(c, 8) ? NULL : &spray,
+             calls_slip(c, 8) ? NULL : origin);
 }
 
 void call_virga_water_foam(calls *c)
 {
     virga_water_buffer foam;
     double origin[3];
-    CALLS_DO(c, virga_water_foam, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &foam,
-             calls_once_in(c, 8) ? NULL : origin);
+    CALLS_DO(c, virga_water_foam, calls_pick(c, CALLS_WATER).object, calls_slip(c, 8) ? NULL : &foam,
+             calls_slip(c, 8) ? NULL : origin);
 }
 
 void call_virga_water_densities(calls *c)
 {
     virga_water_buffer densities;
-    CALLS_DO(c, virga_water_densities, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &densities);
+    CALLS_DO(c, virga_water_densities, calls_pick(c, CALLS_WATER).object, calls_slip(c, 8) ? NULL : &densities);
 }
 
 void call_virga_water_leavers_get(calls *c)
 {
     virga_water_leavers leavers;
-    CALLS_DO(c, virga_water_leavers_get, calls_pick(c, CALLS_WATER).object, calls_once_in(c, 8) ? NULL : &leavers);
+    CALLS_DO(c, virga_water_leavers_get, calls_pick(c, CALLS_WATER).object, calls_slip(c, 8) ? NULL : &leavers);
 }
 
 /* ---- the solver */
@@ -90,7 +90,7 @@ void call_virga_fluid_add(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_FLUID);
     virga_fluid_block block = {.low_m = {0.1f, 0.1f, 0.1f}, .high_m = {0.2f, 0.2f, 0.2f}};
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     CALLS_WILD_ALL(c, &block);
     CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_fluid_add, h.object,
               wrong ? NULL : &block);
@@ -120,7 +120,7 @@ void call_virga_fluid_step(calls *c)
     const calls_handle h = calls_pick(c, CALLS_FLUID);
     virga_fluid_step_info info = {.dt_s = 0.01f};
     VkCommandBuffer cmd;
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     if (calls_once_in(c, 3)) {
         info.particles = c->device->buffer(c);
@@ -136,21 +136,21 @@ void call_virga_fluid_step(calls *c)
 void call_virga_fluid_exchange_get(calls *c)
 {
     virga_fluid_exchange exchange;
-    CALLS_DO(c, virga_fluid_exchange_get, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &exchange);
+    CALLS_DO(c, virga_fluid_exchange_get, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &exchange);
 }
 
 void call_virga_fluid_particles(calls *c)
 {
     virga_fluid_buffer particles;
     uint32_t count;
-    CALLS_DO(c, virga_fluid_particles, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &particles,
-             calls_once_in(c, 8) ? NULL : &count);
+    CALLS_DO(c, virga_fluid_particles, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &particles,
+             calls_slip(c, 8) ? NULL : &count);
 }
 
 void call_virga_fluid_pressures(calls *c)
 {
     virga_fluid_buffer pressures;
-    CALLS_DO(c, virga_fluid_pressures, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &pressures);
+    CALLS_DO(c, virga_fluid_pressures, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &pressures);
 }
 
 /* ---- bodies in the fluid */
@@ -168,13 +168,13 @@ void call_virga_fluid_body_add(calls *c)
         .density = calls_once_in(c, 2) ? 0.5f : 0, .friction = 0.4f, .position_m = {0.2f, 0.2f, 0.2f}};
     uint32_t index;
     CALLS_WILD_ALL(c, &body);
-    body.positions = calls_once_in(c, 8) ? NULL : cube;
-    body.indices = calls_once_in(c, 8) ? NULL : cube_indices;
+    body.positions = calls_slip(c, 8) ? NULL : cube;
+    body.indices = calls_slip(c, 8) ? NULL : cube_indices;
     body.stride = calls_once_in(c, 8) ? 4 : 12;
     body.vertex_count = calls_once_in(c, 8) ? 3 : 8;
     body.index_count = calls_once_in(c, 8) ? 33 : 36;
-    CALLS_DO(c, virga_fluid_body_add, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 20) ? NULL : &body,
-             calls_once_in(c, 8) ? NULL : &index);
+    CALLS_DO(c, virga_fluid_body_add, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 20) ? NULL : &body,
+             calls_slip(c, 8) ? NULL : &index);
 }
 
 void call_virga_fluid_body_drive(calls *c)
@@ -182,20 +182,20 @@ void call_virga_fluid_body_drive(calls *c)
     virga_fluid_pose pose = {.position_m = {0.2f, 0.2f, 0.2f}};
     CALLS_WILD_ALL(c, &pose);
     CALLS_DO(c, virga_fluid_body_drive, calls_pick(c, CALLS_FLUID).object, calls_below(c, 4),
-             calls_once_in(c, 20) ? NULL : &pose);
+             calls_slip(c, 20) ? NULL : &pose);
 }
 
 void call_virga_fluid_body_get(calls *c)
 {
     virga_fluid_pose pose;
     CALLS_DO(c, virga_fluid_body_get, calls_pick(c, CALLS_FLUID).object, calls_below(c, 4),
-             calls_once_in(c, 8) ? NULL : &pose);
+             calls_slip(c, 8) ? NULL : &pose);
 }
 
 void call_virga_fluid_bodies(calls *c)
 {
     virga_fluid_buffer bodies;
-    CALLS_DO(c, virga_fluid_bodies, calls_pick(c, CALLS_FLUID).object, calls_once_in(c, 8) ? NULL : &bodies);
+    CALLS_DO(c, virga_fluid_bodies, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &bodies);
 }
 
 /* ---- the lens */
@@ -207,7 +207,7 @@ void call_virga_lens_prepare(calls *c)
     virga_lens_layer layers[2] = {0};
     VkCommandBuffer cmd;
     const uint32_t count = calls_below(c, 3);
-    const bool wrong = calls_once_in(c, 20);
+    const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     calls_fill_view(c, &view);
     for (uint32_t i = 0; i < count; i++) {
@@ -217,25 +217,25 @@ void call_virga_lens_prepare(calls *c)
     }
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags, virga_lens_prepare, h.object, cmd, wrong ? NULL : &view,
-                  calls_once_in(c, 12) ? NULL : layers, count, calls_number(c, 0, 10));
+                  calls_slip(c, 12) ? NULL : layers, count, calls_number(c, 0, 10));
 }
 
 void call_virga_lens_picture(calls *c)
 {
     virga_lens_image picture;
-    CALLS_DO(c, virga_lens_picture, calls_pick(c, CALLS_LENS).object, calls_once_in(c, 8) ? NULL : &picture);
+    CALLS_DO(c, virga_lens_picture, calls_pick(c, CALLS_LENS).object, calls_slip(c, 8) ? NULL : &picture);
 }
 
 void call_virga_lens_fill_view(calls *c)
 {
     virga_view view = virga_default_view();
-    CALLS_DO(c, virga_lens_fill_view, calls_pick(c, CALLS_LENS).object, calls_once_in(c, 8) ? NULL : &view);
+    CALLS_DO(c, virga_lens_fill_view, calls_pick(c, CALLS_LENS).object, calls_slip(c, 8) ? NULL : &view);
 }
 
 void call_virga_splash_give_hits(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_SPLASH);
-    const bool wrong = calls_once_in(c, 12);
+    const bool wrong = calls_slip(c, 12);
     VkCommandBuffer cmd;
     uint32_t flags = calls_of(h.object, CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     if (!c->device->honest && calls_cmd(c, h.context, &flags, &cmd))

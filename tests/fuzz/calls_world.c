@@ -21,6 +21,11 @@ bool calls_once_in(calls *c, uint32_t n)
     return !calls_below(c, n);
 }
 
+bool calls_slip(calls *c, uint32_t n)
+{
+    return calls_once_in(c, c->careful ? 16 * n : n);
+}
+
 static double wild_number(calls *c)
 {
     static const double wild[] = {(double)NAN,
@@ -56,12 +61,12 @@ static double number(calls *c, bool wild, double low, double high)
 
 double calls_number(calls *c, double low, double high)
 {
-    return number(c, calls_once_in(c, 6), low, high);
+    return number(c, calls_slip(c, 6), low, high);
 }
 
 void calls_floats(calls *c, float *values, uint32_t count, double low, double high)
 {
-    const bool wild = calls_once_in(c, 8);
+    const bool wild = calls_slip(c, 8);
     for (uint32_t i = 0; i < count; i++) {
         const double value = number(c, wild, low, high);
         values[i] = fabs(value) > 3.4e38 ? (value > 0 ? INFINITY : -INFINITY) : (float)value;
@@ -70,7 +75,7 @@ void calls_floats(calls *c, float *values, uint32_t count, double low, double hi
 
 void calls_doubles(calls *c, double *values, uint32_t count, double low, double high)
 {
-    const bool wild = calls_once_in(c, 8);
+    const bool wild = calls_slip(c, 8);
     for (uint32_t i = 0; i < count; i++)
         values[i] = number(c, wild, low, high);
 }
@@ -99,7 +104,7 @@ static void wild_word(calls *c, char *at, size_t left)
 void calls_wild(calls *c, void *bytes, size_t size, const calls_member *kept, uint32_t kept_count)
 {
     static char before[32768];
-    uint32_t words = calls_below(c, 2) ? 0 : 1 + calls_below(c, calls_once_in(c, 6) ? (uint32_t)(size / 8) : 3);
+    uint32_t words = !calls_slip(c, 2) ? 0 : 1 + calls_below(c, calls_once_in(c, 6) ? (uint32_t)(size / 8) : 3);
     if (size > sizeof before)
         abort();
     memcpy(before, bytes, size);
@@ -121,7 +126,7 @@ void calls_wild(calls *c, void *bytes, size_t size, const calls_member *kept, ui
 
 uint32_t calls_some_context(calls *c)
 {
-    return calls_once_in(c, 5) ? c->device->contexts - 1 : 0;
+    return calls_slip(c, 5) ? c->device->contexts - 1 : 0;
 }
 
 virga_context *calls_context_of(calls *c, uint32_t index)
@@ -144,16 +149,17 @@ static void *part_of(calls *c, calls_type type, void *scene)
 
 calls_handle calls_pick(calls *c, calls_type type)
 {
-    if (calls_once_in(c, 24))
+    if (calls_slip(c, 24))
         return (calls_handle){0};
-    if (type != CALLS_SCENE && calls_once_in(c, 3)) {
+    if (type != CALLS_SCENE && calls_once_in(c, c->careful ? 6 : 3)) {
         calls_handle scene = c->handles[CALLS_SCENE][calls_below(c, CALLS_SLOTS)];
         if (scene.object && (scene.object = part_of(c, type, scene.object))) {
             scene.lent = true;
             return scene;
         }
     }
-    const uint32_t first = calls_below(c, CALLS_SLOTS);
+    /* Mostly the same one in careful sequences: what was attached and prepared is then drawn. */
+    const uint32_t first = c->careful && !calls_once_in(c, 4) ? 0 : calls_below(c, CALLS_SLOTS);
     for (uint32_t i = 0; i < CALLS_SLOTS; i++) {
         const calls_handle handle = c->handles[type][(first + i) % CALLS_SLOTS];
         if (handle.object)
@@ -185,7 +191,10 @@ void calls_keep(calls *c, calls_type type, uint32_t context, void *object)
 {
     if (!object)
         return;
-    calls_handle *slot = &c->handles[type][calls_below(c, CALLS_SLOTS)];
+    const bool first = c->careful && !c->handles[type][0].object;
+    calls_handle *slot = &c->handles[type][first        ? 0
+                                           : c->careful ? 1 + calls_below(c, 2)
+                                                        : calls_below(c, CALLS_SLOTS)];
     calls_destroy(c, type, &slot->object);
     *slot = (calls_handle){object, context, false};
 }
@@ -216,7 +225,7 @@ void calls_wrong(const calls *c, const char *name, const char *what)
 bool calls_cmd(calls *c, uint32_t context, uint32_t *flags, VkCommandBuffer *cmd)
 {
     const calls_frames *frames = &c->frames[context];
-    if (calls_once_in(c, 30)) {
+    if (calls_slip(c, 30)) {
         *cmd = VK_NULL_HANDLE;
         *flags |= CALLS_WRONG;
         return true;

@@ -37,6 +37,14 @@ static void say_where(int number)
     raise(number);
 }
 
+static const struct entry *find(const char *name)
+{
+    for (int i = 0; i < TABLE; i++)
+        if (!strcmp(table[i].name, name))
+            return &table[i];
+    abort();
+}
+
 /* What happens in frames comes more often than single creations: else all objects would be young, and the table of
  * rings that each ground fills would take most of the time. */
 static const struct entry *choose(calls *c)
@@ -51,13 +59,45 @@ static const struct entry *choose(calls *c)
         "virga_water_step",   "virga_water_prepare",  "virga_lens_attach",   "virga_lens_prepare",
         "virga_lens_draw",    "virga_fluid_step",     "virga_glass_draw",    "virga_splash_draw",
         "virga_water_draw",   "virga_pipelines_build"};
-    if (calls_once_in(c, 2))
-        return &table[calls_below(c, TABLE)];
-    const char *name = often[calls_below(c, sizeof often / sizeof often[0])];
-    for (int i = 0; i < TABLE; i++)
-        if (!strcmp(table[i].name, name))
-            return &table[i];
-    return &table[0];
+    return calls_once_in(c, 2) ? &table[calls_below(c, TABLE)]
+                               : find(often[calls_below(c, sizeof often / sizeof often[0])]);
+}
+
+static void run(calls *c, const struct entry *entry)
+{
+    name_now = entry->name;
+    if (getenv("VIRGA_TEST_VERBOSE"))
+        fprintf(stderr, "%llu %s\n", call_now, entry->name);
+    c->good = c->bad = 0;
+    entry->call(c);
+    goods[entry - table] += c->good;
+    bads[entry - table] += c->bad;
+}
+
+/* An effect's calls of a frame, in their order: chance alone would hardly ever draw what it has prepared. */
+static void play_frame(calls *c)
+{
+    static const char *const frames[][4] = {
+        {"virga_scene_record", "virga_scene_prepare_panes", "virga_scene_draw"},
+        {"virga_scene_record", NULL, "virga_scene_draw_view", "virga_scene_draw_view"},
+        {"virga_rain_step", "virga_rain_prepare", "virga_rain_draw", "virga_rain_draw_parts"},
+        {"virga_rain_step", "virga_rain_prepare_view", "virga_rain_draw_view", "virga_rain_draw_haze"},
+        {"virga_ground_step", NULL, "virga_ground_draw_wet"},
+        {"virga_splash_step", "virga_splash_prepare_view", "virga_splash_draw_view", "virga_splash_draw"},
+        {"virga_glass_step", "virga_glass_prepare_view", "virga_glass_draw_view", "virga_glass_draw_refraction"},
+        {"virga_water_step", "virga_water_prepare_view", "virga_water_draw_view", "virga_water_draw_foam"},
+        {"virga_water_step", "virga_water_prepare", "virga_water_draw", "virga_water_draw_data"},
+        {"virga_fluid_add", "virga_fluid_step"},
+        {"virga_lens_prepare", NULL, "virga_lens_draw", "virga_lens_draw_part"},
+        {"virga_lens_prepare_view", NULL, "virga_lens_draw_view", "virga_lens_draw_part_view"}};
+    const char *const *names = frames[calls_below(c, sizeof frames / sizeof frames[0])];
+    run(c, find("virga_frame_begin"));
+    for (int i = 0; i < 4; i++) {
+        if (i == 2 && c->frames[0].open && !c->device->inside(c, 0))
+            c->device->render(c, 0, true);
+        if (names[i])
+            run(c, find(names[i]));
+    }
 }
 
 /* Most sequences begin with one object of each type, so that calls find what they need. */
@@ -97,20 +137,17 @@ static void run_sequence(calls *c, uint64_t seed, uint32_t length)
     c->device = device;
     c->made = made;
     c->random = seed_now = seed;
-    c->lies = !device->honest && calls_once_in(c, 3);
+    c->careful = !calls_once_in(c, 3);
+    c->lies = !c->careful && !device->honest && calls_once_in(c, 3);
     c->lost[CALLS_GONE] = true;
     for (uint32_t i = 0; i < device->contexts; i++)
         device->begin(c, i);
     if (!device->honest)
         device->begin(c, CALLS_GONE);
-    if (!calls_once_in(c, 3))
+    if (c->careful || !calls_once_in(c, 3))
         furnish(c);
     for (uint32_t i = 0; i < length; i++) {
-        const struct entry *entry = choose(c);
         call_now = i;
-        name_now = entry->name;
-        if (getenv("VIRGA_TEST_VERBOSE"))
-            fprintf(stderr, "%u %s\n", i, entry->name);
         for (uint32_t k = 0; k < device->contexts; k++)
             if (!c->contexts[k] && calls_once_in(c, 4))
                 calls_make_context(c, k);
@@ -119,10 +156,10 @@ static void run_sequence(calls *c, uint64_t seed, uint32_t length)
             if (c->frames[index].open)
                 device->render(c, index, !device->inside(c, index));
         }
-        c->good = c->bad = 0;
-        entry->call(c);
-        goods[entry - table] += c->good;
-        bads[entry - table] += c->bad;
+        if (c->careful && calls_once_in(c, 12))
+            play_frame(c);
+        else
+            run(c, choose(c));
     }
     name_now = "the end";
     for (uint32_t i = 0; i < device->contexts; i++) {
