@@ -7,6 +7,7 @@
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
+#include <stdio.h>
 #include <string.h>
 
 virga_result virga_effect_ready(const virga_effect *effect)
@@ -23,7 +24,7 @@ virga_result virga_effect_check_step(const virga_effect *effect, const char *cal
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     if (!effect->context->frame_index)
-        return virga_wrong_argument(log, "%s: expected virga_frame_begin before it", call);
+        return virga_frame_not_begun(log, call);
     return VIRGA_OK;
 }
 
@@ -31,9 +32,12 @@ virga_result virga_effect_check_one_step(const virga_effect *effect, const char 
                                          const void *info)
 {
     const virga_result result = virga_effect_check_step(effect, call, cmd, info);
-    if (!result && effect->step_frame == effect->context->frame_index)
-        return virga_wrong_argument(&effect->context->log, "%s: expected one call a frame", call);
-    return result;
+    if (result || effect->step_frame != effect->context->frame_index)
+        return result;
+    char again[96];
+    snprintf(again, sizeof again, "%s: called again in frame %llu", call,
+             (unsigned long long)effect->context->frame_index);
+    return virga_frame_not_begun(&effect->context->log, again);
 }
 
 virga_result virga_effect_check_ticks(const virga_effect *effect, const virga_tick_range *range,

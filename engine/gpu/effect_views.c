@@ -116,8 +116,9 @@ virga_result virga_effect_push_view(virga_effect *effect, const char *call, virg
 {
     *index = virga_ring_used(effect->context, ring);
     if (*index >= ring->blocks_per_frame)
-        return virga_wrong_argument(&effect->context->log, "%s: more than %u views in a frame", call,
-                                    ring->blocks_per_frame);
+        return virga_wrong_argument(&effect->context->log,
+                                    "%s: more than %u views in a frame: expected virga_frame_begin before the next",
+                                    call, ring->blocks_per_frame);
     *offset = virga_ring_push(effect->context, ring, block, size);
     return VIRGA_OK;
 }

@@ -68,6 +68,12 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
     return VIRGA_ERROR_INVALID;
 }
 
+virga_result virga_frame_not_begun(const virga_log *log, const char *call)
+{
+    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER, "%s: expected virga_frame_begin before it", call);
+    return VIRGA_ERROR_INVALID;
+}
+
 virga_result virga_log_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready,
                                  bool *logged)
 {

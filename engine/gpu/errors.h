@@ -32,6 +32,9 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 /* Logs a wrong argument. Returns VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
+/* Logs that a call needs a frame that has begun. Returns VIRGA_ERROR_INVALID. `call`: what was called, and how. */
+virga_result virga_frame_not_begun(const virga_log *log, const char *call);
+
 /* A draw has nothing to draw. Returns VIRGA_NOT_READY. Hosts that check only for errors do not notice this, so `call`
  * is logged once; the next successful draw resets `logged`. It is not logged while pipelines are still being built
  * (`ready` is not VIRGA_OK), which is normal. */

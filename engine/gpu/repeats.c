@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define FORGET_FRAMES 1000 /* a line that was not logged for so long is new again */
-#define FRAME_LINES   8    /* times that a line may be logged in the frame in which it is new */
+#define SETUP_LINES   8    /* times that a line is passed on before the first frame, when objects are created */
 
 /* These are logged once by themselves, or only by calls that are rare. */
 static bool is_counted(virga_log_level level, virga_log_id id)
@@ -16,12 +16,12 @@ static bool is_counted(virga_log_level level, virga_log_id id)
            id != VIRGA_LOG_SHRUNK && id != VIRGA_LOG_LIVE_OBJECTS && id != VIRGA_LOG_DEVICE_LOST;
 }
 
-/* FNV-1a. The numbers of a warning differ from frame to frame and are left out. */
-static uint64_t key_of(virga_log_level level, virga_log_id id, const char *text)
+/* FNV-1a. Numbers differ from frame to frame and are left out. */
+static uint64_t key_of(virga_log_id id, const char *text)
 {
     uint64_t hash = 14695981039346656037u ^ (uint64_t)id;
     for (; *text; text++)
-        if (level == VIRGA_LOG_ERROR || !strchr("0123456789.+-", *text))
+        if (!strchr("0123456789.+-", *text))
             hash = (hash ^ (unsigned char)*text) * 1099511628211u;
     return hash ? hash : 1;
 }
@@ -61,10 +61,11 @@ void virga_repeats_log(void *user, virga_log_level level, virga_log_id id, const
         host->fn(host->user, level, id, text);
         return;
     }
-    virga_repeat *entry = entry_of(context, key_of(level, id, text));
+    virga_repeat *entry = entry_of(context, key_of(id, text));
     entry->last_frame = context->frame_index;
     entry->count++;
-    const bool is_new = entry->first_frame == context->frame_index && entry->count <= FRAME_LINES;
+    const bool in_setup = !context->frame_index && id != VIRGA_LOG_FRAME_ORDER;
+    const bool is_new = entry->count <= (in_setup ? SETUP_LINES : 1);
     if (is_new)
         host->fn(host->user, level, id, text);
     else if (is_power_of_ten(entry->count)) {

@@ -13,7 +13,7 @@ typedef struct virga_repeat {
 } virga_repeat;
 
 /* The log function of a context, which is `user`. Passes a line on to the host's log function if it is new, or if it
- * was logged 10, 100, ... times. */
+ * was logged 10, 100, ... times, with any numbers in it. */
 void virga_repeats_log(void *user, virga_log_level level, virga_log_id id, const char *text);
 
 #endif

@@ -182,7 +182,7 @@ static virga_result check_recording(const virga_rain *rain, const double camera_
     const virga_result result = check_call(rain, camera_m);
     if (result || rain->base.context->frame_index)
         return result;
-    return virga_wrong_argument(&rain->base.context->log, "occlusion: expected virga_frame_begin before it");
+    return virga_frame_not_begun(&rain->base.context->log, "occlusion");
 }
 
 virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],

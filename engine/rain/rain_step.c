@@ -284,7 +284,7 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
     if (!(info->dt_s >= 0 && info->dt_s <= MAX_STEP_S))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 10 s, got %g", info->dt_s);
     if (ticks_of_frame(rain) >= rain->def.max_ticks_per_step)
-        return virga_wrong_argument(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
+        return virga_frame_not_begun(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
     return virga_effect_ready(&rain->base);
 }
 

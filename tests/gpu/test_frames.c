@@ -11,7 +11,7 @@ static void step_before_the_first_frame_is_refused(void **state)
     const virga_rain_step_info step = {.dt_s = 0.02};
     gpu_forget_log(f);
     assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_ERROR_INVALID);
-    assert_one_error(f, VIRGA_LOG_ARGUMENT);
+    assert_one_error(f, VIRGA_LOG_FRAME_ORDER);
     assert_true(virga_rain_time(rain) == 0);
     gpu_submit(f);
     gpu_wait(f);
@@ -30,7 +30,7 @@ static void occlusion_before_the_first_frame_is_refused(void **state)
     REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
     gpu_forget_log(f);
     assert_int_equal(virga_rain_draw_occlusion(rain, cmd, camera, NULL, 0), VIRGA_ERROR_INVALID);
-    assert_one_error(f, VIRGA_LOG_ARGUMENT);
+    assert_one_error(f, VIRGA_LOG_FRAME_ORDER);
     gpu_submit(f);
     gpu_wait(f);
     virga_rain_destroy(&rain);

@@ -96,7 +96,9 @@ typedef enum virga_log_id {
     VIRGA_LOG_LIVE_OBJECTS = 10,    /* a context was destroyed before objects that were made from it */
     VIRGA_LOG_CREATED = 11,         /* an object was created: what, and how much memory it takes */
     VIRGA_LOG_PIPELINE_CACHE = 12,  /* a pipeline cache blob does not fit this driver and is ignored */
-    VIRGA_LOG_FRAME_ORDER = 13,     /* frame indices or ticks went backwards, or completed_index passed frame_index */
+    /* Frame indices or ticks went backwards, completed_index passed frame_index, or virga_frame_begin is missing. */
+    VIRGA_LOG_FRAME_ORDER = 13,
+
     VIRGA_LOG_TICKS_DROPPED = 14,   /* a step was longer than max_ticks_per_step; the rest of its time is dropped */
     VIRGA_LOG_IMPACTS_DROPPED = 15, /* a step had more impacts than the buffer holds */
     VIRGA_LOG_SHRUNK = 16,          /* an effect was made smaller for the memory budget: which pools, and how small */
@@ -118,8 +120,9 @@ VIRGA_API const char *virga_log_name(virga_log_id id);
 /* Receives one log line, without a newline. `text` is valid during the call only. Called on the thread of the API
  * call that logs.
  *
- * A line that comes again in later frames is passed on only at the 10th, 100th, ... time, with the number of times. A
- * line that was not logged for 1000 frames counts as new. virga_context_def.log_repeats switches this off. */
+ * A line that comes again is passed on only at the 10th, 100th, ... time, with the number of times, whatever numbers
+ * are in it. A line that was not logged for 1000 frames counts as new, and before the first frame eight are passed on,
+ * as objects may have the same mistake. virga_context_def.log_repeats switches this off. */
 typedef void (*virga_log_fn)(void *user, virga_log_level level, virga_log_id id, const char *text);
 
 /* Callbacks for host memory. Leave all zero to use malloc and free. Both are called on the thread of the API call,
