@@ -24,9 +24,24 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, const V
     return create(physical, &more, allocator, device);
 }
 
-typedef enum drawn { RAIN, SPLASH, GLASS, REFRACTION, WATER, WATER_DATA, HAZE, LENS, DRAWN } drawn;
-static const char *const names[DRAWN] = {"rain",  "splash",     "glass", "refraction",
-                                         "water", "water data", "haze",  "lens"};
+typedef enum drawn {
+    RAIN,
+    RAIN_PARTS,
+    SPLASH,
+    GLASS,
+    REFRACTION,
+    WATER,
+    WATER_DATA,
+    FOAM,
+    WET,
+    HAZE,
+    LENS,
+    LENS_PART,
+    DRAWN
+} drawn;
+static const char *const names[DRAWN] = {"rain",       "parts of rain", "splash",     "glass",
+                                         "refraction", "water",         "water data", "foam",
+                                         "wet ground", "haze",          "lens",       "scene of lens"};
 
 typedef struct stereo {
     views_run run;
@@ -47,29 +62,57 @@ static virga_target *make_target(stereo *s, const layered_pass *pass)
     REQUIRE(virga_target_create(s->run.context, &def, &target) == VIRGA_OK);
     REQUIRE(virga_scene_attach(s->run.scene, target) == VIRGA_OK);
     REQUIRE(virga_lens_attach(s->lens, target) == VIRGA_OK);
+    REQUIRE(virga_ground_attach(virga_scene_ground(s->run.scene), target) == VIRGA_OK);
     return target;
 }
 
-static virga_image give_image(stereo *s, host_image *made, VkFormat format, const void *texel)
+/* Of texels of four bytes. */
+static virga_image give_image(stereo *s, host_image *made, VkFormat format, const void *data)
 {
-    static float data[SIDE * SIDE];
     fixture *gpu = &s->run.f->gpu;
     const host_image_def def = {
         .format = format, .extent = {SIDE, SIDE, 1}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT, .name = "a scene's"};
-    for (uint32_t i = 0; i < SIDE * SIDE; i++)
-        memcpy(&data[i], texel, sizeof data[i]);
-    REQUIRE(host_image_create_with(&gpu->device, &def, data, sizeof data, sizeof data[0], made, gpu->error,
-                                   sizeof gpu->error));
+    REQUIRE(host_image_create_with(&gpu->device, &def, data, SIDE * SIDE * 4, 4, made, gpu->error, sizeof gpu->error));
     return (virga_image){.image = made->image,
                          .view = made->view,
                          .format = format,
                          .before = {.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
 }
 
+/* The ground, a metre below the cameras, and the sky; and a picture of one color. */
+static void give_scene(stereo *s)
+{
+    static float depth[SIDE][SIDE];
+    static uint8_t color[SIDE][SIDE][4];
+    static const uint8_t texel[4] = {200, 90, 40, 255};
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            const float down = 2 * ((float)y + 0.5f) / SIDE - 1;
+            depth[y][x] = down > 0.01f ? 1.001f - 0.1001f * down : 1;
+            memcpy(color[y][x], texel, sizeof texel);
+        }
+    const virga_image seen = give_image(s, &s->depth, VK_FORMAT_R32_SFLOAT, depth);
+    const virga_image behind = give_image(s, &s->color, VK_FORMAT_R8G8B8A8_UNORM, color);
+    for (int i = 0; i < EYES; i++) {
+        s->run.views[i].depth = seen;
+        s->run.views[i].color = behind;
+    }
+}
+
+/* Its particles come nearer to each other, which traps air. */
+static void make_foam(stereo *s)
+{
+    virga_water_settings settings;
+    virga_water *water = virga_scene_water(s->run.scene);
+    virga_water_get(water, &settings);
+    settings.foam_air_hz = 1e5f;
+    settings.foam_radius_m = 0.01f;
+    settings.spray_density = 0;
+    REQUIRE(virga_water_set(water, &settings) == VIRGA_OK);
+}
+
 static void open_stereo(stereo *s, gpu_fixture *f)
 {
-    static const float far_away = 0.999f;
-    static const uint8_t texel[4] = {200, 90, 40, 255};
     virga_lens_def lens = virga_default_lens_def();
     memset(s, 0, sizeof *s);
     open_run(&s->run, f, EYES);
@@ -80,15 +123,13 @@ static void open_stereo(stereo *s, gpu_fixture *f)
     layered_pass_open(&s->both, &f->gpu, FORMAT, 16, SIDE, SIDE, EYES, (1 << EYES) - 1);
     s->single_target = make_target(s, &s->single);
     s->both_target = make_target(s, &s->both);
-    const virga_image depth = give_image(s, &s->depth, VK_FORMAT_R32_SFLOAT, &far_away);
-    const virga_image color = give_image(s, &s->color, VK_FORMAT_R8G8B8A8_UNORM, texel);
+    give_scene(s);
+    make_foam(s);
     for (uint32_t i = 0; i < EYES; i++) {
         virga_view *view = &s->run.views[i];
         view->viewport[0] = 0;
         view->position_m[0] = view->open_position_m[0] = 0.06 * i - 0.03;
         view->multiview_index = i;
-        view->depth = depth;
-        view->color = color;
     }
     play(&s->run);
 }
@@ -111,7 +152,13 @@ static virga_result draw_eye(stereo *s, VkCommandBuffer cmd, const virga_target 
                              const virga_prepared *prepared)
 {
     virga_scene *scene = s->run.scene;
+    const virga_ground_wet wet = virga_default_ground_wet();
     switch (what) {
+    case RAIN_PARTS:
+        return virga_rain_draw_parts_view(virga_scene_rain(scene), cmd, target, prepared[RAIN], VIRGA_RAIN_STREAKS);
+    case FOAM: return virga_water_draw_foam_view(virga_scene_water(scene), cmd, target, prepared[WATER]);
+    case WET: return virga_ground_draw_wet(virga_scene_ground(scene), cmd, &s->run.views[eye], &wet, target);
+    case LENS_PART: return virga_lens_draw_part_view(s->lens, cmd, target, prepared[LENS], 0);
     case RAIN: return virga_rain_draw_view(virga_scene_rain(scene), cmd, target, prepared[RAIN]);
     case SPLASH: return virga_splash_draw_view(virga_scene_splash(scene), cmd, target, prepared[SPLASH]);
     case GLASS: return virga_glass_draw_view(virga_scene_glass(scene, 0), cmd, target, prepared[GLASS]);
@@ -180,7 +227,8 @@ static void layers_of_one_pass_are_as_passes_of_one_view(void **state)
         assert_true(count_lit(alone[0]) > 0 && count_lit(alone[1]) > 0);
         for (uint32_t eye = 0; eye < EYES; eye++)
             assert_memory_equal(&both[eye * LAYER], alone[eye], sizeof alone[eye]);
-        const bool even = what == HAZE || what == LENS; /* depth and color are the same for both eyes */
+        /* Depth and color are the same for both eyes. */
+        const bool even = what == HAZE || what == LENS || what == LENS_PART;
         assert_int_equal(!memcmp(alone[0], alone[1], sizeof alone[0]), even);
     }
     assert_int_equal(s.run.f->errors, 0);

@@ -52,6 +52,8 @@ static inline void make_particles(views_run *run)
                                                     1.2f + 0.05f * (float)(i / BALL % BALL),
                                                     -1.5f + 0.05f * (float)(i / BALL / BALL)},
                                        .share = 1,
+                                       .velocity = {2.5f - (float)(i % BALL), 2.5f - (float)(i / BALL % BALL),
+                                                    2.5f - (float)(i / BALL / BALL)}, /* towards its middle */
                                        .id = (uint32_t)i};
     make_buffer(run->f, ball, sizeof ball, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &run->particles);
 }
@@ -116,14 +118,16 @@ static inline virga_result record(views_run *run, VkCommandBuffer cmd, double dt
 {
     const virga_occluder square = small_occluder(run->vertices.buffer, run->indices.buffer);
     virga_scene_pane panes[SMALL_PANES];
-    const virga_scene_frame frame = {.dt_s = dt_s,
-                                     .camera_m = {0, 1, 0},
-                                     .occluders = &square,
-                                     .occluder_count = 1,
-                                     .views = &run->views[first],
-                                     .view_count = count,
-                                     .panes = panes,
-                                     .water = {.particles = run->particles.buffer, .count = PARTICLES}};
+    const double time_s = virga_rain_time(virga_scene_rain(run->scene)) + dt_s;
+    const virga_scene_frame frame = {
+        .dt_s = dt_s,
+        .camera_m = {0, 1, 0},
+        .occluders = &square,
+        .occluder_count = 1,
+        .views = &run->views[first],
+        .view_count = count,
+        .panes = panes,
+        .water = {.particles = run->particles.buffer, .count = PARTICLES, .time_s = time_s}};
     small_panes_lay(panes);
     panes[0].shelter = 0.01f; /* so it has drops of its own, at once */
     if (dt_s <= 0) {          /* it stands in front of all; before, rain fell on it */
