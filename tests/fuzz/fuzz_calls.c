@@ -27,6 +27,15 @@ static uint32_t goods[TABLE], bads[TABLE];
 static unsigned long long seed_now, call_now;
 static const char *name_now = "";
 
+static volatile sig_atomic_t ended;
+
+/* A long run that is told to end does so, and says how far it came. */
+static void end_soon(int number)
+{
+    (void)number;
+    ended = 1;
+}
+
 static void say_where(int number)
 {
     char line[160];
@@ -146,7 +155,7 @@ static void run_sequence(calls *c, uint64_t seed, uint32_t length)
         device->begin(c, CALLS_GONE);
     if (c->careful || !calls_once_in(c, 3))
         furnish(c);
-    for (uint32_t i = 0; i < length; i++) {
+    for (uint32_t i = 0; i < length && !ended; i++) {
         call_now = i;
         for (uint32_t k = 0; k < device->contexts; k++)
             if (!c->contexts[k] && calls_once_in(c, 4))
@@ -207,8 +216,9 @@ int main(int argc, char **argv)
         return 1;
     signal(SIGABRT, say_where);
     signal(SIGSEGV, say_where);
+    signal(SIGTERM, end_soon);
     c.device->close(&c);
-    for (; c.made < count; seed++)
+    for (; c.made < count && !ended; seed++)
         run_sequence(&c, seed, (uint32_t)length);
     if (c.device->end)
         c.device->end();
