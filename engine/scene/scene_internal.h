@@ -2,6 +2,7 @@
  *
  *   scene.c          creates, runs and destroys a scene: every function loops over the table
  *   scene_budget.c   how many ticks fit into a frame's time budget
+ *   scene_cost.c     what a definition takes on a kind of device
  *   scene_effects.c  the table: which effects exist, and the events between them */
 #ifndef VIRGA_SCENE_INTERNAL_H
 #define VIRGA_SCENE_INTERNAL_H

@@ -63,6 +63,30 @@ static const quality_row glass_rows[] = {
     ROW(glass, U32, max_texels, 512, 768, 1024, 2048),
 };
 
+/* Foam and droplets, and the sizes that as many particles need. */
+static const quality_row water_rows[] = {
+    ROW(water, U32, max_particles, 16384, 32768, 65536, 1048576),
+    ROW(water, U32, max_cells, 65536, 131072, 262144, 4194304),
+    ROW(water, U32, max_blocks, 16384, 24576, 32768, 262144),
+    ROW(water, U32, max_surfels, 65536, 131072, 262144, 2097152),
+    ROW(water, U32, max_spray, 1024, 2048, 4096, 65536),
+    ROW(water, U32, max_droplets, 16384, 32768, 65536, 1048576),
+    ROW(water, U32, max_foam, 4096, 16384, 65536, 524288),
+    ROW(water, U32, max_width, 960, 1280, 1920, 3840),
+    ROW(water, U32, max_height, 540, 720, 1080, 2160),
+};
+
+static const quality_row fluid_rows[] = {
+    ROW(fluid, U32, max_particles, 16384, 32768, 65536, 1048576),
+    ROW(fluid, U32, max_cells, 65536, 131072, 262144, 4194304),
+    ROW(fluid, U32, max_substeps, 3, 5, 8, 32),
+    ROW(fluid, U32, max_iterations, 10, 15, 20, 60),
+};
+
+static const quality_row lens_rows[] = {
+    ROW(lens, U32, half_resolution, 1, 1, 1, 0),
+};
+
 static void apply(virga_quality quality, const quality_row *rows, uint32_t count, void *def)
 {
     if (!def || (uint32_t)quality >= QUALITIES)
@@ -84,6 +108,9 @@ APPLY(rain)
 APPLY(ground)
 APPLY(splash)
 APPLY(glass)
+APPLY(water)
+APPLY(fluid)
+APPLY(lens)
 
 void virga_scene_apply_quality(virga_quality quality, virga_scene_def *def)
 {
@@ -92,6 +119,7 @@ void virga_scene_apply_quality(virga_quality quality, virga_scene_def *def)
     virga_rain_apply_quality(quality, &def->rain);
     virga_ground_apply_quality(quality, &def->ground);
     virga_splash_apply_quality(quality, &def->splash);
+    virga_water_apply_quality(quality, &def->water);
 }
 
 const char *virga_quality_name(virga_quality quality)

@@ -202,4 +202,19 @@ APPLY(rain)
 APPLY(ground)
 APPLY(splash)
 APPLY(glass)
+APPLY(water)
+APPLY(fluid)
+APPLY(lens)
 APPLY(scene)
+
+void call_virga_scene_cost(calls *c)
+{
+    virga_scene_def def;
+    virga_glass_def panes[2];
+    virga_scene_costs costs;
+    fill_def(c, &def, panes);
+    const bool wrong = calls_slip(c, 8);
+    CALLS_TRY(c, 0, CALLS_SILENT | (wrong ? CALLS_WRONG : 0), virga_scene_cost, wrong ? NULL : &def,
+              (VkPhysicalDeviceType)((int)calls_below(c, 8) - 1), calls_below(c, 4000), calls_below(c, 4000),
+              calls_slip(c, 8) ? NULL : &costs);
+}

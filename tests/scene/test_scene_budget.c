@@ -6,6 +6,8 @@
 #include <stdint.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -187,6 +189,11 @@ static void high_is_the_default_but_for_ticks(void **state)
     assert_memory_equal(&def.ground, &same.ground, sizeof def.ground);
     assert_memory_equal(&def.splash, &same.splash, sizeof def.splash);
     assert_memory_equal(&pane, &same_pane, sizeof pane);
+    assert_memory_equal(&def.water, &same.water, sizeof def.water);
+    virga_fluid_def fluid = virga_default_fluid_def();
+    const virga_fluid_def same_fluid = virga_default_fluid_def();
+    virga_fluid_apply_quality(VIRGA_QUALITY_HIGH, &fluid);
+    assert_memory_equal(&fluid, &same_fluid, sizeof fluid);
 }
 
 static void presets_are_in_range_and_take_more_and_more(void **state)
@@ -200,7 +207,7 @@ static void presets_are_in_range_and_take_more_and_more(void **state)
         open_context(&t, true);
         virga_scene_apply_quality((virga_quality)quality, &def);
         virga_glass_apply_quality((virga_quality)quality, &pane);
-        def.with_ground = def.with_splash = true;
+        def.with_ground = def.with_splash = def.with_water = true;
         def.panes = &pane;
         def.pane_count = 1;
         const VkDeviceSize bytes = virga_scene_estimate(&def);
@@ -210,6 +217,106 @@ static void presets_are_in_range_and_take_more_and_more(void **state)
         assert_int_equal(t.clamped, 0);
         close_scene(&t);
     }
+}
+
+static void presets_of_a_fluid_and_a_lens_are_in_range(void **state)
+{
+    VkDeviceSize fluid_before = 0, lens_before = 0;
+    (void)state;
+    for (int quality = VIRGA_QUALITY_LOW; quality <= VIRGA_QUALITY_FILM; quality++) {
+        budget_test t;
+        virga_fluid_def fluid_def = virga_default_fluid_def();
+        virga_lens_def lens_def = virga_default_lens_def();
+        virga_fluid *fluid = NULL;
+        virga_lens *lens = NULL;
+        open_context(&t, true);
+        virga_fluid_apply_quality((virga_quality)quality, &fluid_def);
+        virga_lens_apply_quality((virga_quality)quality, &lens_def);
+        assert_true(virga_fluid_estimate(&fluid_def) > fluid_before);
+        assert_true(virga_lens_estimate(&lens_def) >= lens_before);
+        fluid_before = virga_fluid_estimate(&fluid_def);
+        lens_before = virga_lens_estimate(&lens_def);
+        assert_int_equal(virga_fluid_create(t.context, &fluid_def, &fluid), VIRGA_OK);
+        assert_int_equal(virga_lens_create(t.context, &lens_def, &lens), VIRGA_OK);
+        assert_int_equal(t.clamped, 0);
+        virga_fluid_destroy(&fluid);
+        virga_lens_destroy(&lens);
+        close_scene(&t);
+    }
+}
+
+/* ---- what presets take */
+
+static const VkPhysicalDeviceType slow_to_fast[] = {VK_PHYSICAL_DEVICE_TYPE_CPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
+                                                    VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU};
+
+static virga_scene_costs cost_of(virga_quality quality, VkPhysicalDeviceType kind, uint32_t width, uint32_t height)
+{
+    virga_scene_def def = virga_default_scene_def();
+    virga_glass_def pane = virga_default_glass_def();
+    virga_scene_costs costs;
+    virga_scene_apply_quality(quality, &def);
+    virga_glass_apply_quality(quality, &pane);
+    def.with_ground = def.with_splash = def.with_water = true;
+    def.panes = &pane;
+    def.pane_count = 1;
+    assert_int_equal(virga_scene_cost(&def, kind, width, height, &costs), VIRGA_OK);
+    assert_true(costs.memory_bytes == virga_scene_estimate(&def));
+    return costs;
+}
+
+static void better_qualities_cost_more_and_faster_devices_less(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        for (int quality = VIRGA_QUALITY_LOW; quality <= VIRGA_QUALITY_FILM; quality++) {
+            const virga_scene_costs costs = cost_of((virga_quality)quality, slow_to_fast[kind], 1280, 720);
+            const virga_scene_costs small = cost_of((virga_quality)quality, slow_to_fast[kind], 640, 360);
+            if (getenv("VIRGA_TEST_VERBOSE"))
+                printf("%d %-6s tick %8.2f, frame %8.2f, draw %8.2f ms, %6.0f MiB\n", (int)slow_to_fast[kind],
+                       virga_quality_name((virga_quality)quality), (double)costs.tick_ms, (double)costs.frame_ms,
+                       (double)costs.draw_ms, (double)costs.memory_bytes / 1048576);
+            assert_true(costs.tick_ms > 0 && small.tick_ms == costs.tick_ms);
+            assert_true(small.draw_ms < costs.draw_ms && small.frame_ms < costs.frame_ms);
+            if (kind > 0) {
+                const virga_scene_costs slower = cost_of((virga_quality)quality, slow_to_fast[kind - 1], 1280, 720);
+                assert_true(costs.tick_ms < slower.tick_ms && costs.frame_ms < slower.frame_ms);
+            }
+            if (quality > VIRGA_QUALITY_LOW) {
+                const virga_scene_costs lower = cost_of((virga_quality)(quality - 1), slow_to_fast[kind], 1280, 720);
+                assert_true(costs.tick_ms > lower.tick_ms && costs.frame_ms > lower.frame_ms);
+            }
+        }
+}
+
+/* By hand: rain alone moves drops, finds impacts and prepares; 8 and 7 dispatches and 4 maps. */
+static void rain_alone_costs_what_its_rows_say(void **state)
+{
+    virga_scene_def def = virga_default_scene_def();
+    virga_scene_costs costs;
+    (void)state;
+    def.rain.max_drops = 100000;
+    def.rain.max_streaks = 2000;
+    assert_int_equal(virga_scene_cost(&def, VK_PHYSICAL_DEVICE_TYPE_CPU, 100, 100, &costs), VIRGA_OK);
+    assert_float_equal(costs.tick_ms, 100000 * 50e-6 + 8 * 0.045, 1e-4);
+    assert_float_equal(costs.frame_ms, 100000 * 35e-6 + 4 * 1024 * 1024 * 4e-6 + 11 * 0.045, 1e-3);
+    assert_float_equal(costs.draw_ms, 2000 * (330 + 0.58 * 100) * 1e-6 + 10000 * 15e-6 + 2 * 0.045, 1e-4);
+}
+
+static void a_cost_of_nothing_is_refused(void **state)
+{
+    virga_scene_def def = virga_default_scene_def(), wrong = def;
+    virga_scene_costs costs;
+    const VkPhysicalDeviceType cpu = VK_PHYSICAL_DEVICE_TYPE_CPU;
+    (void)state;
+    wrong.cookie = 0;
+    assert_int_equal(virga_scene_cost(NULL, cpu, 64, 64, &costs), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_cost(&wrong, cpu, 64, 64, &costs), VIRGA_ERROR_INVALID);
+    assert_true(costs.tick_ms == 0 && costs.memory_bytes == 0);
+    assert_int_equal(virga_scene_cost(&def, cpu, 64, 64, NULL), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_cost(&def, cpu, 0, 64, &costs), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_cost(&def, cpu, 64, 16385, &costs), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_cost(&def, (VkPhysicalDeviceType)5, 64, 64, &costs), VIRGA_ERROR_INVALID);
 }
 
 static void what_does_not_exist_changes_nothing(void **state)
@@ -235,7 +342,11 @@ int main(void)
         cmocka_unit_test(a_slow_frame_makes_no_slower_ones),
         cmocka_unit_test(high_is_the_default_but_for_ticks),
         cmocka_unit_test(presets_are_in_range_and_take_more_and_more),
+        cmocka_unit_test(presets_of_a_fluid_and_a_lens_are_in_range),
         cmocka_unit_test(what_does_not_exist_changes_nothing),
+        cmocka_unit_test(better_qualities_cost_more_and_faster_devices_less),
+        cmocka_unit_test(rain_alone_costs_what_its_rows_say),
+        cmocka_unit_test(a_cost_of_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,6 +78,7 @@ static bool open_device(drive *d)
         shows = VK_FALSE;
     if (!shows)
         return host_fail(d->error, sizeof d->error, "%s does not show pictures in this window", infos[index].name);
+    d->kind = infos[index].type;
     if (!d->chosen.has_quality)
         d->quality = infos[index].type == VK_PHYSICAL_DEVICE_TYPE_CPU              ? VIRGA_QUALITY_LOW
                      : infos[index].type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU ? VIRGA_QUALITY_MEDIUM
@@ -157,6 +158,7 @@ static bool create_rain(drive *d)
     def.with_splash = true;
     def.panes = &windshield;
     def.pane_count = 1;
+    virga_scene_cost(&def, d->kind, d->stage.width, d->stage.height, &d->expected);
     return fine(d, virga_scene_create(d->context, &def, &d->rain), "scene");
 }
 
@@ -419,6 +421,8 @@ static void print_cost(const drive *d)
     virga_memory_get(d->context, &memory);
     for (uint32_t i = 0; i < count && i < 64; i++)
         printf("%-24s %8.3f ms\n", times[i].name, times[i].milliseconds);
+    printf("%-24s %8.3f ms a tick, %.3f a frame, %.3f to draw\n", "expected (of kind)", (double)d->expected.tick_ms,
+           (double)d->expected.frame_ms, (double)d->expected.draw_ms);
     printf("%-24s %8.1f MiB in %u allocations\n", "device memory", (double)memory.device_bytes / 1048576,
            memory.device_allocations);
 }

@@ -65,9 +65,11 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
-    virga_quality quality;     /* of the definitions */
-    float budget_ms;           /* of the device's time for ticks; 0: none */
-    float rate_mm_h, set_mm_h; /* wanted, and as Virga has it */
+    VkPhysicalDeviceType kind;  /* of the device ... */
+    virga_quality quality;      /* ... which the definitions are for ... */
+    virga_scene_costs expected; /* ... and what they may take on it */
+    float budget_ms;            /* of the device's time for ticks; 0: none */
+    float rate_mm_h, set_mm_h;  /* wanted, and as Virga has it */
     int wiper_speed;
     double wiper_s; /* time in the wipers' cycle */
 } drive;
