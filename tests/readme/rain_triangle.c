@@ -42,9 +42,9 @@ static virga_target *target;
 /* The log says why a call failed. The result says only that it failed. */
 static void print_line(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
+    static const char *const levels[] = {"error", "warning", "info"};
     (void)user;
-    if (level != VIRGA_LOG_INFO)
-        fprintf(stderr, "virga (%s): %s\n", virga_log_name(id), text);
+    fprintf(stderr, "virga %s (%s): %s\n", levels[level], virga_log_name(id), text);
 }
 
 static void check(virga_result result, const char *what)
