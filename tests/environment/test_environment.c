@@ -356,6 +356,93 @@ static void a_picture_stands_for_what_it_shows(void **state)
     close_lit(&l);
 }
 
+/* ---- pictures of frames that go on */
+
+/* What the host draws into its picture: one color. */
+static void paint(const lit *l, VkCommandBuffer cmd, float light)
+{
+    const VkClearColorValue color = {.float32 = {light, 2 * light, 4 * light, 1}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    host_image_barrier(cmd, &l->flat, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdClearColorImage(cmd, l->flat.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1, &all);
+    host_image_barrier(cmd, &l->flat, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+}
+
+/* An empty command buffer goes to the queue in its place. */
+static void throw_away(const lit *l, VkCommandBuffer cmd, bool tell)
+{
+    const host_device *device = &l->f->gpu.device;
+    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
+    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
+    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
+    if (tell)
+        assert_int_equal(virga_frame_dropped(l->context, device->frame), VIRGA_OK);
+}
+
+/* A frame whose picture has one color, with the same around it. */
+static void record_painted(lit *l, const virga_environment_info *info, float light, bool lost, bool tell)
+{
+    virga_environment_info with = *info;
+    VkCommandBuffer cmd = gpu_begin_frame(l->f, l->context);
+    for (int c = 0; c < 3; c++)
+        with.rest_sh[0][c] = (float)(1 << c) * light * (float)(2 * sqrt(PI));
+    paint(l, cmd, light);
+    assert_int_equal(virga_environment_record(l->environment, cmd, &with), VIRGA_OK);
+    if (lost)
+        throw_away(l, cmd, tell);
+    gpu_submit(l->f);
+}
+
+/* The light and the frame that are found once all is done. */
+static uint64_t find_light(lit *l, double *light)
+{
+    float sh[9][3] = {{0}};
+    gpu_wait(l->f);
+    assert_int_equal(virga_frame_completed(l->context, l->f->gpu.device.completed), VIRGA_OK);
+    const uint64_t frame = virga_environment_harmonics(l->environment, sh);
+    *light = (double)sh[0][0] / (2 * sqrt(PI));
+    for (int c = 0; c < 3 && frame; c++)
+        assert_float_equal((double)sh[0][c], (1 << c) * *light * 2 * sqrt(PI), 1e-4);
+    return frame;
+}
+
+/* The host's last picture, recorded in the frame that draws it, frame after frame without waiting. Frames that are
+ * thrown away, told or not, leave the light of the newest frame that the device has executed. */
+static void the_last_picture_of_each_frame_is_found(void **state)
+{
+    static const float black[HEIGHT][WIDTH][4];
+    const gpu_picture size = {.images = {.width = WIDTH, .height = HEIGHT}};
+    double light;
+    lit l;
+    open_lit(&l, state);
+    const virga_view view = gpu_view(&size);
+    virga_environment_info info = flat(&l, FORMAT, black, 16);
+    info.kind = VIRGA_ENVIRONMENT_PICTURE;
+    info.view = &view;
+    record_painted(&l, &info, 7, true, true); /* the first one is lost */
+    assert_int_equal(find_light(&l, &light), 0);
+    for (int frame = 1; frame <= 6; frame++)
+        record_painted(&l, &info, (float)frame, false, false);
+    const uint64_t sixth = find_light(&l, &light);
+    assert_int_equal(sixth, l.f->gpu.device.frame);
+    assert_float_equal(light, 6, 1e-4);
+    for (int tell = 0; tell < 2; tell++) {
+        record_painted(&l, &info, 9, true, tell);
+        assert_int_equal(find_light(&l, &light), sixth);
+        assert_float_equal(light, 6, 1e-4);
+    }
+    record_painted(&l, &info, 3, false, false);
+    assert_int_equal(find_light(&l, &light), l.f->gpu.device.frame);
+    assert_float_equal(light, 3, 1e-4);
+    close_lit(&l);
+}
+
 /* ---- mistakes */
 
 static void refuse_as(lit *l, VkCommandBuffer cmd, const virga_environment_info *info, virga_log_id id,
@@ -410,6 +497,7 @@ int main(void)
         gpu_kept_test(harmonics_of_a_cube_map),
         gpu_kept_test(an_image_may_be_turned_and_encoded),
         gpu_kept_test(a_picture_stands_for_what_it_shows),
+        gpu_kept_test(the_last_picture_of_each_frame_is_found),
         gpu_kept_test(what_is_missing_or_wrong_is_told),
     };
     return effect_fixture_close(cmocka_run_group_tests_name("environment", tests, NULL, NULL));
