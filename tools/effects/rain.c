@@ -61,7 +61,7 @@ static const scene_row rain_rows[] = {
     NUMBER(scene_rain, oscillation, 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"),
     NUMBER(scene_rain, haze, 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"),
     NUMBER(scene_rain, haze_sky_m, 0, 100000, "400", LIVE,
-           "haze before the sky; 0 where its picture was taken in rain, as --plate"),
+           "haze before the sky; 0 where its picture was taken in rain, as a --plate without depth"),
     NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),
     NUMBER(scene_rain, streak_min_mm, 0.2, 2, "0.4", LIVE,
            "smaller drops are drawn as haze only; they land all the same"),
@@ -231,8 +231,9 @@ static void fill_look(const shot *s, const scene_rain *from, virga_rain_settings
     to->near_fade_m = (float)from->near_fade_m;
     to->oscillation = (float)from->oscillation;
     to->haze = (float)from->haze;
-    /* Footage has its own haze. */
-    to->haze_sky_m = s->options.plate ? 0 : (float)from->haze_sky_m;
+    /* Footage without depth is all sky, and has its own haze. */
+    const bool is_flat = s->options.plate && !s->options.depth && !(s->scene->footage.depth_m > 0);
+    to->haze_sky_m = is_flat ? 0 : (float)from->haze_sky_m;
     to->glow = (float)from->glow;
     to->streak_min_mm = (float)from->streak_min_mm;
     to->occlusion_interval = from->occlusion_interval;

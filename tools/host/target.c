@@ -129,7 +129,8 @@ static bool create_output(host_device *device, host_target *target, host_output 
                           size_t error_size)
 {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    usage |= output == HOST_COLOR ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0; /* host_target_fill_plate */
+    if (output == HOST_COLOR || output == HOST_DEPTH)
+        usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT; /* host_target_fill_plate */
     usage |= output == HOST_DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     const host_image_def def = {
         .format = format_of(output), .extent = {target->width, target->height, 1}, .usage = usage, .name = name};
@@ -281,7 +282,26 @@ static void color_barrier(const host_target *target, VkCommandBuffer cmd, VkImag
                            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 
-void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels)
+/* After the pass has cleared it. */
+static void fill_depth(const host_target *target, VkCommandBuffer cmd, const host_buffer *depth)
+{
+    const host_image *image = &target->images[HOST_DEPTH];
+    const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1},
+                                      .imageExtent = image->extent};
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT, readers = HOST_DEPTH_STAGES | READERS;
+    VkImageLayout layout;
+    is_sampled(HOST_DEPTH, &layout);
+    host_image_barrier(cmd, image, layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers,
+                       VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, copying, VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdCopyBufferToImage(cmd, depth->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, layout, copying, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       readers | copying,
+                       VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT);
+}
+
+void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels,
+                            const host_buffer *depth)
 {
     const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                       .imageExtent = target->images[HOST_COLOR].extent};
@@ -293,6 +313,8 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
                            1, &region);
     color_barrier(target, cmd, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                   VK_ACCESS_TRANSFER_WRITE_BIT);
+    if (depth)
+        fill_depth(target, cmd, depth);
 }
 
 /* The pass of layers clears; the pass of `behind` ignores the clear value. */

@@ -95,8 +95,9 @@ void host_target_pick(const host_target *target, VkCommandBuffer cmd, const uint
 float host_target_picked_depth(const host_device *device, const host_target *target, float coverage);
 
 /* Replaces the drawing of a plate: copies `pixels` into its color (RGBA floats, rows from the top) and clears its other
- * outputs, depth to 1. */
-void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels);
+ * outputs, depth to 1. `depth` (one float of 0 to 1 a pixel) is copied into its depth; NULL: it stays 1. */
+void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels,
+                            const host_buffer *depth);
 
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);

@@ -215,7 +215,8 @@ static bool check_core(const scene_file *scene, char *error, size_t error_size)
     if (scene->frames.last < scene->frames.first)
         return scene_file_refuse(scene, "frames.last", error, error_size, "expected at least frames.first (%u), got %u",
                                  scene->frames.first, scene->frames.last);
-    return check_camera(scene, error, error_size) && check_lights(scene, error, error_size);
+    return check_camera(scene, error, error_size) && check_lights(scene, error, error_size) &&
+           scene_footage_check(scene, error, error_size);
 }
 
 const scene_section scene_core_section = {.group = SCENE_GROUP(scene_file, core_rows), .check = check_core};

@@ -100,7 +100,12 @@ typedef struct scene_preview {
 
 /* What the pictures of a plate mean, see --plate. */
 typedef struct scene_footage {
-    uint32_t curve; /* transfer_curve */
+    uint32_t curve;            /* transfer_curve */
+    double depth_m;            /* where --depth gives none; 0: nothing is there, as in the sky */
+    uint32_t depth_kind;       /* depth_map_kind */
+    double depth_scale;        /* of a value; 0: by the format */
+    double disparity_base_m;   /* (disparity) between the two cameras */
+    double disparity_focal_px; /* (disparity) focal length in pixels of the depth's picture */
 } scene_footage;
 
 /* The keys that one effect adds, see scene_schema.h. */

@@ -1,6 +1,7 @@
 /* scene_footage.c - keys of scene files that say what the pictures of a plate mean. */
 #include "scene_footage.h"
 
+#include "depth_map.h"
 #include "scene_rows.h"
 #include "transfer.h"
 
@@ -10,8 +11,34 @@ static const scene_keyword curves[] = {
     {"logc3", TRANSFER_LOGC3},   {"slog3", TRANSFER_SLOG3},     {NULL, 0},
 };
 
+static const scene_keyword depth_kinds[] = {
+    {"axis", DEPTH_MAP_AXIS}, {"ray", DEPTH_MAP_RAY}, {"disparity", DEPTH_MAP_DISPARITY}, {NULL, 0}};
+
 static const scene_row footage_rows[] = {
     CHOICE(scene_footage, curve, curves, "auto", RESTARTS,
            "transfer curve of the plate, undone before rain and done again after; auto: srgb, linear for floats"),
+    NUMBER(scene_footage, depth_m, 0, MAX_METERS, "0", RESTARTS,
+           "how far the plate is where --depth does not say it; 0: infinitely far"),
+    CHOICE(scene_footage, depth_kind, depth_kinds, "axis", RESTARTS,
+           "values of --depth: metres along the camera's axis, along each pixel's ray, or disparity in pixels"),
+    NUMBER(scene_footage, depth_scale, 0, 1e6, "0", RESTARTS,
+           "times the values of --depth; 0: 1 of floats, 1/256 of whole numbers as KITTI and Cityscapes have it"),
+    NUMBER(scene_footage, disparity_base_m, 0, 1000, "0", RESTARTS,
+           "distance of the two cameras (for depth_kind: disparity); Cityscapes: 0.2093"),
+    NUMBER(scene_footage, disparity_focal_px, 0, 1e6, "0", RESTARTS,
+           "focal length in pixels of the disparity's picture; Cityscapes: 2262.5"),
 };
 const scene_group scene_footage_group = SCENE_GROUP(scene_footage, footage_rows);
+
+bool scene_footage_check(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_footage *footage = &scene->footage;
+    if (footage->depth_kind != DEPTH_MAP_DISPARITY)
+        return true;
+    if (!(footage->disparity_base_m > 0))
+        return scene_file_refuse(scene, "footage.disparity_base_m", error, error_size,
+                                 "expected more than 0, as footage.depth_kind is disparity");
+    return footage->disparity_focal_px > 0 ||
+           scene_file_refuse(scene, "footage.disparity_focal_px", error, error_size,
+                             "expected more than 0, as footage.depth_kind is disparity");
+}

@@ -6,4 +6,7 @@
 
 extern const scene_group scene_footage_group;
 
+/* What one value alone does not show. */
+bool scene_footage_check(const scene_file *scene, char *error, size_t error_size);
+
 #endif

@@ -46,6 +46,11 @@ static const option_row rows[] = {
      "folder with one picture per frame of the scene, sorted by name, or one picture for all frames. Any size. "
      "footage.curve of the scene is their transfer curve",
      false},
+    {"--depth", 0, "PATTERN",
+     "depth of the plate, so that rain falls before and behind what it shows: EXR (channel Z), PNG of 16 bits, TIFF or "
+     "NumPy (.npy), named as --plate is. footage.depth_kind of the scene says what its values are. Default: the "
+     "distance footage.depth_m, or all rain is before the plate",
+     false},
     {"--picture", 0, "KIND",
      "also write the beauty as picture.%04d.png, .jpg or .tif, with that curve. KIND is same (as the plate), png, "
      "png16, jpg, tif, tif16, tif32 or none. 8 bits are dithered. Default: same, where there is a plate that is no EXR",
@@ -175,6 +180,9 @@ static bool read_plate(render_job *job, uint32_t size[2])
     const char *plate = options_value(&job->parsed, "--plate"), *word = options_value(&job->parsed, "--size");
     const bool of_plate = word && !strcmp(word, "plate");
     job->how.plate = plate;
+    job->how.depth = options_value(&job->parsed, "--depth");
+    if (job->how.depth && !plate)
+        return options_complain("render", "--depth: expected a --plate");
     if (of_plate && !plate)
         return options_complain("render", "--size plate: expected a --plate");
     if (!of_plate && !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size))
@@ -260,6 +268,7 @@ static resume_request request_of(const render_job *job)
                             .samples = job->how.samples,
                             .layers = job->layers,
                             .plate = job->how.plate,
+                            .depth = job->how.depth,
                             .water_velocity = job->how.water_velocity,
                             .picture = job->picture,
                             .points = job->points,

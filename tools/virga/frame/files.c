@@ -89,6 +89,8 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
         .name = "framesPerSecond", .kind = EXR_ATTRIBUTE_RATIONAL, .rational = {(int32_t)lround(fps * 1000), 1000}};
     if (s->options.plate)
         out[n++] = (exr_attribute){.name = "plate", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.plate};
+    if (s->options.depth)
+        out[n++] = (exr_attribute){.name = "plateDepth", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.depth};
     if (s->options.water_velocity)
         out[n++] = (exr_attribute){
             .name = "waterVelocity", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)s->options.water_velocity};
@@ -111,7 +113,7 @@ bool frame_save_exr(const shot *s, const host_drawn *picture, const host_camera 
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, picture->depth[i]);
     exr_parts parts = {.count = 0};
-    exr_attribute attributes[11];
+    exr_attribute attributes[12];
     char hash[32], digits[EXR_UINT_DIGITS];
     collect(s, picture, layers, beauty, distance, &parts);
     const exr_frame file = {.width = picture->width,

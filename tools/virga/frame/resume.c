@@ -51,6 +51,8 @@ static bool matches_request(const resume_request *request, const char *path, con
         return false;
     if (differs(path, "plate", texts[3].text, request->plate ? request->plate : "", error, error_size))
         return false;
+    if (differs(path, "depth", texts[5].text, request->depth ? request->depth : "", error, error_size))
+        return false;
     expected[0] = 0;
     if (request->water_velocity)
         snprintf(expected, sizeof expected, "%u", request->water_velocity);
@@ -87,14 +89,14 @@ static bool find_frame(const resume_request *request, uint32_t frame, bool *ther
 {
     char path[4096], damage[1024];
     exr_header header;
-    exr_text texts[] = {
-        {.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}, {.name = "plate"}, {.name = "waterVelocity"}};
+    exr_text texts[] = {{.name = "seed"},  {.name = "samples"},       {.name = "sceneHash"},
+                        {.name = "plate"}, {.name = "waterVelocity"}, {.name = "plateDepth"}};
     *there = false;
     snprintf(path, sizeof path, "%s/frame.%04u.exr", request->directory, frame);
     struct stat info;
     if (stat(path, &info))
         return true;
-    if (!exr_read_header(path, &header, texts, 5, damage, sizeof damage)) {
+    if (!exr_read_header(path, &header, texts, 6, damage, sizeof damage)) {
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }

@@ -103,7 +103,7 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
                          const host_camera *frame_ago, char *error, size_t error_size)
 {
     if (s->plate) {
-        host_target_fill_plate(&s->target, cmd, &s->plate_buffer);
+        host_target_fill_plate(&s->target, cmd, &s->plate_buffer, s->plate->has_depth ? &s->plate_depth_buffer : NULL);
         return true;
     }
     for (uint32_t i = 0; tool_effects[i]; i++)
@@ -255,6 +255,8 @@ bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error,
     host_accumulator_reset(&s->sums);
     if (s->plate)
         memcpy(s->plate_buffer.mapped, s->plate->rgba, s->plate_buffer.size);
+    if (s->plate && s->plate->has_depth)
+        memcpy(s->plate_depth_buffer.mapped, s->plate->depth, s->plate_depth_buffer.size);
     for (uint32_t sample = 0; sample < s->options.samples; sample++)
         if (!draw_sample(s, sample, time_s, error, error_size))
             return false;

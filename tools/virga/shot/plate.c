@@ -1,147 +1,85 @@
-/* plate.c - finds, reads and resamples the pictures of a plate. */
+/* plate.c - reads and resamples the pictures and the depth of a plate. */
 #include "shot/plate.h"
 
 #include "host.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-/* ---- which file */
 
 static bool is_picture(const char *name)
 {
     picture_kind kind;
-    return name[0] != '.' && picture_kind_of(name, &kind);
+    return picture_kind_of(name, &kind);
 }
 
-static int by_name(const void *a, const void *b)
+static plate_files pictures_of(const char *pattern, uint32_t first)
 {
-    return strcmp(*(char *const *)a, *(char *const *)b);
+    return (plate_files){.option = "--plate",
+                         .endings = "EXR, PNG, JPEG or TIFF",
+                         .takes = is_picture,
+                         .pattern = pattern,
+                         .first = first};
 }
 
-static bool add_file(plate *p, const char *name)
+static plate_files depths_of(const char *pattern, uint32_t first)
 {
-    char **more = realloc(p->files, (p->file_count + 1) * sizeof *more);
-    if (more)
-        p->files = more;
-    if (!more || asprintf(&p->files[p->file_count], "%s/%s", p->pattern, name) < 0)
-        return false;
-    p->file_count++;
-    return true;
+    return (plate_files){.option = "--depth",
+                         .endings = "EXR, PNG, TIFF or NumPy",
+                         .takes = depth_map_is_name,
+                         .pattern = pattern,
+                         .first = first};
 }
 
-static bool list_folder(plate *p, char *error, size_t error_size)
+static bool read_picture(const plate_files *files, uint32_t frame, char path[4096], picture *p, char *error,
+                         size_t error_size)
 {
-    DIR *folder = opendir(p->pattern);
-    bool listed = folder;
-    for (struct dirent *entry; listed && (entry = readdir(folder));)
-        listed = !is_picture(entry->d_name) || add_file(p, entry->d_name);
-    if (folder)
-        closedir(folder);
-    if (!listed)
-        return host_fail(error, error_size, "--plate: cannot list the folder %s", p->pattern);
-    if (!p->file_count)
-        return host_fail(error, error_size, "--plate: no EXR, PNG, JPEG or TIFF pictures in the folder %s", p->pattern);
-    qsort(p->files, p->file_count, sizeof *p->files, by_name);
-    return true;
-}
-
-/* A pattern is what printf needs for one whole number, and nothing else: it comes from a command line. */
-static bool check_pattern(plate *p, char *error, size_t error_size)
-{
-    const char *percent = strchr(p->pattern, '%');
-    if (!percent)
-        return true;
-    p->numbered = true;
-    const char *end = percent + 1 + strspn(percent + 1, "0123456789");
-    if (*end == 'd' && end - percent <= 3 && !strchr(end, '%'))
-        return true;
-    return host_fail(error, error_size, "--plate: expected one number as in plate.%%04d.exr, got %s", p->pattern);
-}
-
-static bool name_of(const plate *p, uint32_t frame, char path[4096], char *error, size_t error_size)
-{
-    if (p->files && frame - p->first >= p->file_count)
-        return host_fail(error, error_size, "--plate: %u pictures in %s, none for frame %u", p->file_count, p->pattern,
-                         frame);
-    if (p->files) {
-        snprintf(path, 4096, "%s", p->files[frame - p->first]);
-        return true;
-    }
-    const char *percent = p->numbered ? strchr(p->pattern, '%') : NULL;
-    if (!percent) {
-        snprintf(path, 4096, "%s", p->pattern);
-        return true;
-    }
-    const int digits = atoi(percent + 1);
-    snprintf(path, 4096, "%.*s%0*u%s", (int)(percent - p->pattern), p->pattern, digits, frame,
-             strchr(percent, 'd') + 1);
-    return true;
-}
-
-/* Finds out what the pattern is, and whether the pictures are there. */
-static bool find_pictures(plate *p, const uint32_t frames[2], char *error, size_t error_size)
-{
-    struct stat about;
-    const char *pattern = p->pattern;
-    const bool folder = !stat(pattern, &about) && S_ISDIR(about.st_mode);
-    if (folder ? !list_folder(p, error, error_size) : !check_pattern(p, error, error_size))
-        return false;
-    for (uint32_t frame = frames[0]; frame <= frames[1]; frame++) {
-        char path[4096];
-        if (!name_of(p, frame, path, error, error_size))
-            return false;
-        if (access(path, R_OK))
-            return host_fail(error, error_size, "--plate: cannot read %s, for frame %u", path, frame);
-    }
-    return true;
+    char reason[1024];
+    return plate_files_name(files, frame, path, error, error_size) &&
+           (picture_read(path, p, reason, sizeof reason) || host_fail(error, error_size, "--plate: %s", reason));
 }
 
 bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames[2], picture_format *format,
                 uint32_t size[2], char *error, size_t error_size)
 {
-    plate p = {.pattern = pattern, .first = scene_first};
-    char path[4096], reason[1024];
+    plate_files files = pictures_of(pattern, scene_first);
+    char path[4096];
     picture first = {.rgb = NULL};
-    bool read = find_pictures(&p, frames, error, error_size) && name_of(&p, frames[0], path, error, error_size);
-    if (read && !picture_read(path, &first, reason, sizeof reason))
-        read = host_fail(error, error_size, "--plate: %s", reason);
+    const bool read = plate_files_open(&files, frames, error, error_size) &&
+                      read_picture(&files, frames[0], path, &first, error, error_size);
     *format = first.format;
     size[0] = first.width;
     size[1] = first.height;
     free(first.rgb);
-    plate_close(&p);
+    plate_files_close(&files);
     return read;
 }
 
-bool plate_open(plate *p, const char *pattern, transfer_curve curve, uint32_t scene_first, const uint32_t frames[2],
-                uint32_t width, uint32_t height, char *error, size_t error_size)
+bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint32_t frames[2], char *error,
+                size_t error_size)
 {
-    *p = (plate){.pattern = pattern,
-                 .curve = curve,
-                 .first = scene_first,
-                 .loaded = UINT32_MAX,
-                 .width = width,
-                 .height = height};
-    if (!pattern)
-        return true;
-    if (!find_pictures(p, frames, error, error_size))
+    const size_t pixels = (size_t)def->width * def->height;
+    *p = (plate){.def = *def,
+                 .pictures = pictures_of(def->pictures, scene_first),
+                 .depths = depths_of(def->depths, scene_first),
+                 .loaded = UINT32_MAX};
+    p->has_depth = def->depths || def->depth_m > 0;
+    if (!plate_files_open(&p->pictures, frames, error, error_size) ||
+        (def->depths && !plate_files_open(&p->depths, frames, error, error_size)))
         return false;
-    p->rgba = malloc((size_t)width * height * 4 * sizeof *p->rgba);
-    return p->rgba || host_fail(error, error_size, "no memory for a plate of %u x %u", width, height);
+    p->rgba = malloc(pixels * 4 * sizeof *p->rgba);
+    p->depth = p->has_depth ? malloc(pixels * sizeof *p->depth) : NULL;
+    return (p->rgba && (p->depth || !p->has_depth)) ||
+           host_fail(error, error_size, "no memory for a plate of %u x %u", def->width, def->height);
 }
 
 void plate_close(plate *p)
 {
-    for (uint32_t i = 0; i < p->file_count; i++)
-        free(p->files[i]);
-    free(p->files);
+    plate_files_close(&p->pictures);
+    plate_files_close(&p->depths);
     free(p->rgba);
+    free(p->depth);
     *p = (plate){0};
 }
 
@@ -168,12 +106,13 @@ static void resample_line(const float *in, size_t in_step, uint32_t from, float 
 
 static bool resample(plate *p, const float *rgb, uint32_t width, uint32_t height)
 {
-    float *rows_done = malloc((size_t)p->width * height * 3 * sizeof *rows_done);
+    float *rows_done = malloc((size_t)p->def.width * height * 3 * sizeof *rows_done);
     for (uint32_t row = 0; rows_done && row < height; row++)
-        resample_line(rgb + (size_t)row * width * 3, 3, width, rows_done + (size_t)row * p->width * 3, 3, p->width);
-    for (uint32_t column = 0; rows_done && column < p->width; column++)
-        resample_line(rows_done + column * 3, (size_t)p->width * 3, height, p->rgba + column * 4, (size_t)p->width * 4,
-                      p->height);
+        resample_line(rgb + (size_t)row * width * 3, 3, width, rows_done + (size_t)row * p->def.width * 3, 3,
+                      p->def.width);
+    for (uint32_t column = 0; rows_done && column < p->def.width; column++)
+        resample_line(rows_done + column * 3, (size_t)p->def.width * 3, height, p->rgba + column * 4,
+                      (size_t)p->def.width * 4, p->def.height);
     free(rows_done);
     return rows_done;
 }
@@ -181,14 +120,14 @@ static bool resample(plate *p, const float *rgb, uint32_t width, uint32_t height
 static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t width, uint32_t height, char *error,
                          size_t error_size)
 {
-    const size_t pixels = (size_t)p->width * p->height;
-    if (width == p->width && height == p->height) {
+    const size_t pixels = (size_t)p->def.width * p->def.height;
+    if (width == p->def.width && height == p->def.height) {
         for (size_t i = 0; i < pixels; i++)
             memcpy(p->rgba + i * 4, rgb + i * 3, 3 * sizeof *rgb);
     } else {
         if (!p->warned)
-            fprintf(stderr, "virga: --plate: %s is %u x %u, resampled to %u x %u\n", path, width, height, p->width,
-                    p->height);
+            fprintf(stderr, "virga: --plate: %s is %u x %u, resampled to %u x %u\n", path, width, height, p->def.width,
+                    p->def.height);
         p->warned = true;
         if (!resample(p, rgb, width, height))
             return host_fail(error, error_size, "no memory for a plate of %u x %u", width, height);
@@ -198,19 +137,52 @@ static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t 
     return true;
 }
 
-bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
+/* ---- depth */
+
+/* As a depth buffer has it, see host_camera_distance. What is farther than the far plane is drawn before it. */
+static float buffer_depth(const plate *p, double metres)
+{
+    const double near_m = p->def.near_m, far_m = p->def.far_m;
+    if (!(metres > 0))
+        return 1;
+    const double depth = far_m * (metres - near_m) / (metres * (far_m - near_m));
+    return fminf(fmaxf((float)depth, 0), nextafterf(1, 0));
+}
+
+/* Each pixel gets the depth of one pixel of the map, as a mean of two depths is neither. */
+static bool load_depth(plate *p, uint32_t frame, char *error, size_t error_size)
 {
     char path[4096], reason[1024];
+    uint32_t width = 1, height = 1;
+    float *metres = NULL;
+    if (p->def.depths && !plate_files_name(&p->depths, frame, path, error, error_size))
+        return false;
+    if (p->def.depths && !depth_map_read(path, &p->def.depth, &width, &height, &metres, reason, sizeof reason))
+        return host_fail(error, error_size, "--depth: %s", reason);
+    for (uint32_t y = 0; y < p->def.height; y++)
+        for (uint32_t x = 0; x < p->def.width; x++) {
+            const size_t row = (2 * (size_t)y + 1) * height / (2 * (size_t)p->def.height);
+            const size_t column = (2 * (size_t)x + 1) * width / (2 * (size_t)p->def.width);
+            const double known = metres ? (double)metres[row * width + column] : 0;
+            p->depth[(size_t)y * p->def.width + x] = buffer_depth(p, known > 0 ? known : p->def.depth_m);
+        }
+    free(metres);
+    return true;
+}
+
+bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
+{
+    char path[4096];
     picture now;
     if (p->loaded == frame)
         return true;
-    if (!name_of(p, frame, path, error, error_size))
+    p->loaded = UINT32_MAX;
+    if (!read_picture(&p->pictures, frame, path, &now, error, error_size))
         return false;
-    if (!picture_read(path, &now, reason, sizeof reason))
-        return host_fail(error, error_size, "--plate: %s", reason);
-    picture_to_light(now.rgb, (size_t)now.width * now.height * 3, p->curve, now.format);
-    const bool copied = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size);
+    picture_to_light(now.rgb, (size_t)now.width * now.height * 3, p->def.curve, now.format);
+    const bool loaded = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size) &&
+                        (!p->has_depth || load_depth(p, frame, error, error_size));
     free(now.rgb);
-    p->loaded = copied ? frame : UINT32_MAX;
-    return copied;
+    p->loaded = loaded ? frame : UINT32_MAX;
+    return loaded;
 }

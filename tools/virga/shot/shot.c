@@ -29,18 +29,37 @@ static bool open_plate(shot *s, char *error, size_t error_size)
     s->plate = calloc(1, sizeof *s->plate);
     if (!s->plate)
         return host_fail(error, error_size, "no memory for a plate");
-    return plate_open(s->plate, s->options.plate, s->scene->footage.curve, s->scene->frames.first, s->options.frames,
-                      s->options.width, s->options.height, error, error_size) &&
+    const scene_footage *footage = &s->scene->footage;
+    const plate_def def = {
+        .pictures = s->options.plate,
+        .depths = s->options.depth,
+        .curve = footage->curve,
+        .depth = {.kind = footage->depth_kind,
+                  .scale = footage->depth_scale,
+                  .baseline_m = footage->disparity_base_m,
+                  .focal_px = footage->disparity_focal_px,
+                  .view_height = 2 * tan(scene_camera_fov_deg(&s->scene->camera) * M_PI / 360)},
+        .depth_m = footage->depth_m,
+        .near_m = s->scene->camera.near_m,
+        .far_m = s->scene->camera.far_m,
+        .width = s->options.width,
+        .height = s->options.height,
+    };
+    return plate_open(s->plate, &def, s->scene->frames.first, s->options.frames, error, error_size) &&
            plate_load(s->plate, s->options.frames[0], error, error_size);
 }
 
-/* Where the pictures of a plate go on their way to the device. */
-static bool open_plate_buffer(shot *s, char *error, size_t error_size)
+/* Where the pictures of a plate and their depth go on their way to the device. */
+static bool open_plate_buffers(shot *s, char *error, size_t error_size)
 {
-    const VkDeviceSize size = (VkDeviceSize)s->options.width * s->options.height * 4 * sizeof(float);
-    return !s->plate || !s->options.draw ||
-           host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "plate pixels",
-                              &s->plate_buffer, error, error_size);
+    const VkDeviceSize size = (VkDeviceSize)s->options.width * s->options.height * sizeof(float);
+    if (!s->plate || !s->options.draw)
+        return true;
+    return host_buffer_create(&s->device, 4 * size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD,
+                              "plate pixels", &s->plate_buffer, error, error_size) &&
+           (!s->plate->has_depth ||
+            host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "plate depths",
+                               &s->plate_depth_buffer, error, error_size));
 }
 
 static bool check_input(shot *s, char *error, size_t error_size)
@@ -91,8 +110,8 @@ static bool open_all(shot *s, char *error, size_t error_size)
     if (!shot_load_camera(s))
         return host_fail(error, error_size, "no memory for the camera's path");
     return check_input(s, error, error_size) && shot_open_device(s, error, error_size) &&
-           open_plate_buffer(s, error, error_size) && (!s->options.draw || shot_create_picture(s, error, error_size)) &&
-           shot_open_scene(s, error, error_size);
+           open_plate_buffers(s, error, error_size) &&
+           (!s->options.draw || shot_create_picture(s, error, error_size)) && shot_open_scene(s, error, error_size);
 }
 
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size)
@@ -121,6 +140,7 @@ void shot_close(shot *s)
         host_accumulator_destroy(&s->sums);
         virga_context_destroy(&s->context);
         host_buffer_destroy(&s->device, &s->plate_buffer);
+        host_buffer_destroy(&s->device, &s->plate_depth_buffer);
         host_device_destroy(&s->device);
     }
     host_drawn_destroy(&s->frame);
