@@ -5,7 +5,7 @@
 // a wall and moves on gets the impulse that stops it (Guendelman et al. 2003, Nonconvex Rigid Bodies with Stacking,
 // section 5), one after the other, some times over.
 //
-// One invocation per body. Reads: maps (points). Writes: bodies, state.max_speed2.
+// One workgroup per body. Reads: maps (points). Writes: bodies, state.max_speed2.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,7 @@
 #include "fluid.glsl"
 #include "bodies.glsl"
 
-layout(local_size_x = VIRGA_FLUID_MAX_BODIES) in;
+layout(local_size_x = 1) in;
 
 #define ROUNDS 8
 
@@ -87,9 +87,7 @@ void meet_walls()
 
 void main()
 {
-    body = gl_LocalInvocationIndex;
-    if (body >= frame.bodies)
-        return;
+    body = gl_WorkGroupID.x;
     rotation = rotation_of(body);
     center = to_vec(bodies[body].center);
     velocity = to_vec(bodies[body].velocity);

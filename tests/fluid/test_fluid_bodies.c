@@ -347,6 +347,28 @@ static void a_body_falls_freely_and_rests_on_the_floor(void **state)
     fluid_fixture_close(&f);
 }
 
+/* Without water and gravity: each moves by its own speed, whatever others there are. */
+static void two_bodies_move_by_their_own_speeds(void **state)
+{
+    (void)state;
+    const box_mesh box = box_of(0.1, 0.1, 0.1);
+    body_fixture_open(&f);
+    memset(f.settings.gravity_m_s2, 0, sizeof f.settings.gravity_m_s2);
+    fluid_fixture_box(&f, 0.02, 1, 1, 1);
+    virga_fluid_body first = body_of(&box, 2, 0.2, 0.5, 0.5), second = body_of(&box, 0.5, 0.8, 0.5, 0.5);
+    first.velocity_m_s[0] = 0.6f;
+    second.velocity_m_s[1] = -1.2f;
+    body_fixture_add(&f, &first);
+    body_fixture_add(&f, &second);
+    fluid_fixture_run(&f, 10);
+    const virga_fluid_pose poses[2] = {pose_of(&f, 0), pose_of(&f, 1)};
+    assert_float_equal(poses[0].position_m[0], 0.3, 1e-5);
+    assert_float_equal(poses[0].position_m[1], 0.5, 1e-5);
+    assert_float_equal(poses[1].position_m[0], 0.8, 1e-5);
+    assert_float_equal(poses[1].position_m[1], 0.3, 1e-5);
+    fluid_fixture_close(&f);
+}
+
 static void the_same_calls_give_the_same_bits(void **state)
 {
     (void)state;
@@ -384,6 +406,7 @@ int main(void)
         cmocka_unit_test(a_sinking_body_accelerates_by_what_buoyancy_leaves),
         cmocka_unit_test(a_splash_loses_energy_in_every_step_and_no_particle_is_in_the_body),
         cmocka_unit_test(a_floating_body_settles_at_the_depth_of_archimedes),
+        cmocka_unit_test(two_bodies_move_by_their_own_speeds),
         cmocka_unit_test(the_same_calls_give_the_same_bits),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
