@@ -51,17 +51,70 @@ cmp "$work/all/water_particles.0004.ply" "$work/alone/water_particles.0004.ply" 
 VIRGA_VALIDATE=0 render late --frames 5 --set water.start_s=0.1
 python3 "$here/check_solver.py" "$work/late" 20 5 0.1 || fail "water that begins to move later"
 
+# Bodies: one falls where no water is, one has keys, and a post of the scene stands in the water.
+cat >"$work/post.obj" <<'END'
+o post
+v -0.4 0.2 0.25
+v -0.3 0.2 0.25
+v -0.3 0.2 0.35
+v -0.4 0.2 0.35
+v -0.4 0.8 0.25
+v -0.3 0.8 0.25
+v -0.3 0.8 0.35
+v -0.4 0.8 0.35
+f 1 2 3 4
+f 8 7 6 5
+f 1 5 6 2
+f 2 6 7 3
+f 3 7 8 4
+f 4 8 5 1
+END
+sed '/^f 4 8 5 1/d' "$work/post.obj" >"$work/open.obj"
+sed -e '/^      - {low_m: \[0.3/d' -e '/^camera/i meshes: [{file: post.obj}]' "$work/pool.yaml" >"$work/bodies.yaml"
+cat >>"$work/bodies.yaml" <<'YAML'
+    meshes: [post]
+    bodies:
+      - {name: stone, box_m: [0.1, 0.1, 0.2], density: 2, position_m: [0.4, 0.6, 0], velocity_m_s: [0, 0.5, 0.1],
+         spin_deg_s: [0, 90, 0]}
+      - {name: paddle, box_m: [0.1, 0.1, 0.1], keys: [{time_s: 0, position_m: [0.1, 0.7, 0]},
+         {time_s: 0.1, position_m: [0.2, 0.8, 0], rotation_deg: [0, 0, 90]}]}
+YAML
+# bodies FOLDER OPTION...
+bodies() {
+    local folder=$work/$1
+    shift
+    timeout 120 "$virga" render "$work/bodies.yaml" -o "$folder" --device "$device" --stats --points "$@" \
+        >"$work/log" 2>&1 || { cat "$work/log"; fail "render $*"; }
+    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
+}
+bodies bodies --frames 1-5 --samples 2
+python3 "$here/check_bodies.py" "$work/bodies" 20 || fail "bodies"
+
+# refuse WHAT OPTION...: rendering refuses the input, in one line that has WHAT.
+refuse() {
+    local what=$1 said
+    shift
+    said=$(VIRGA_VALIDATE=0 timeout 60 "$virga" render "$work/bodies.yaml" -o "$work/none" --device "$device" \
+        "$@" 2>&1 >"$work/out")
+    [ $? = 2 ] && grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
+}
+refuse "water.solver.meshes.0: no mesh or material of the scene has 'tower' in its name" \
+    --set 'water.solver.meshes=[tower]'
+refuse 'the mesh has holes' --set 'meshes=[{file: open.obj}]'
+refuse "adding the body 'stone' to the water" --set 'water.solver.bodies.0={name: stone, file: open.obj}'
+
 # Its particles are files for water.files.
 "$virga" check "$work/pool.yaml" --set "water={files: $work/all/water_particles.%04d.ply, spacing_m: 0.05}" \
     >"$work/log" 2>&1 || { cat "$work/log"; fail "its particles as files"; }
 grep -q 'particles .*5 files, 0.2 s, up to 704 particles with velocity and with ids' "$work/log" ||
     { cat "$work/log"; fail "its particles as files"; }
 
+at=pool.yaml
 # expect WHAT OPTION...: the check refuses, in one line that has WHAT.
 expect() {
     local what=$1 said
     shift
-    said=$(timeout 60 "$virga" check "$work/pool.yaml" "$@" 2>&1 >"$work/out")
+    said=$(timeout 60 "$virga" check "$work/$at" "$@" 2>&1 >"$work/out")
     [ $? = 2 ] && [ "$(wc -l <<<"$said")" = 1 ] && grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
 }
 said=$("$virga" check "$work/pool.yaml" 2>&1) || fail "check of a good scene"
@@ -82,6 +135,18 @@ expect 'water.solver: expected none, as files is there' --set "water.files=$work
 expect 'water.rotation_deg: expected [0, 0, 0], as solver is there' --set 'water.rotation_deg=[0, 90, 0]'
 expect 'water.spacing_m: expected 0, as solver.spacing_m is there, got 0.1' --set water.spacing_m=0.1
 expect 'water.solver.max_substeps: expected a whole number from 1 to 64' --set water.solver.max_substeps=65
+
+at=bodies.yaml
+expect "water.solver.bodies.0.box_m: expected sides of at least spacing_m (0.05), or file beside it; got 0.01 along y" \
+    --set 'water.solver.bodies.0.box_m=[0.1, 0.01, 0.1]'
+expect 'water.solver.bodies.0.box_m: expected none, as file is there' --set water.solver.bodies.0.file=post.obj
+expect 'water.solver.bodies.0.density: expected 0, or 0.05 to 100, got 0.01' --set water.solver.bodies.0.density=0.01
+expect 'water.solver.bodies.0.velocity_m_s: expected [0, 0, 0], as density is 0' --set water.solver.bodies.0.density=0
+expect 'water.solver.bodies.1.keys: expected none, as density is above 0' --set water.solver.bodies.1.density=1
+expect 'water.solver.bodies.1.keys: expected rising times, got 0.1 after 0.2' \
+    --set water.solver.bodies.1.keys.0.time_s=0.2
+expect 'water.solver.bodies: expected at most 8 with the 8 meshes, got 2' \
+    --set 'water.solver.meshes=[a, a, a, a, a, a, a, a]'
 
 [ $failures = 0 ] && echo "water is simulated"
 exit $((failures > 0))

@@ -320,6 +320,11 @@ static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment
             shot_ok(s, virga_water_prepare(p->water, cmd, at->jittered), "preparing the water", error, error_size));
 }
 
+static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size)
+{
+    return water_draw_bodies(s, state, cmd, camera_s, error, error_size);
+}
+
 static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *target)
 {
     const water_state *p = state;
@@ -473,6 +478,7 @@ const tool_effect water_effect = {
     .fill_frame = fill_frame,
     .step = step,
     TOOL_ROWS(layer, layers),
+    .before_plate = before_plate,
     .prepare = prepare,
     .points = &water_points,
     .mesh = &water_surface_mesh,

@@ -22,6 +22,28 @@ typedef struct scene_solver_walls {
     double low_m[3], high_m[3];
 } scene_solver_walls;
 
+typedef struct scene_body_key {
+    double time_s, position_m[3], rotation_deg[3];
+} scene_body_key;
+
+/* A body in the water: a box, or a closed mesh. */
+typedef struct scene_body {
+    char *name;
+    char *file;      /* path of a model; NULL: a box */
+    double box_m[3]; /* sides of the box, with the origin in its middle; all 0: a file */
+    double scale;    /* (file) */
+    double density;  /* over that of water; 0: it moves by its keys */
+    double friction; /* (density) on the walls */
+    double position_m[3], rotation_deg[3];
+    double velocity_m_s[3], spin_deg_s[3]; /* (density) at the start */
+    scene_body_key *keys;                  /* (no density) in order of time; none: it stands still */
+    uint32_t key_count;
+    bool drawn;
+    double color[3], roughness; /* (box) */
+} scene_body;
+
+#define SCENE_SOLVER_MAX_BODIES 8 /* the max of the library, meshes among them */
+
 #define SCENE_SOLVER_MAX_BOXES 16 /* the max of the library between two steps */
 
 typedef struct scene_solver {
@@ -29,6 +51,10 @@ typedef struct scene_solver {
     scene_solver_walls walls;
     scene_solver_box *boxes;
     uint32_t box_count;
+    char **meshes; /* names of what stands in the water */
+    uint32_t mesh_count;
+    scene_body *bodies;
+    uint32_t body_count;
     double gravity_m_s2[3];
     double viscosity_m2_s, cfl, solver_error;
     uint32_t max_substeps, max_iterations;

@@ -148,10 +148,12 @@ static void end_build(host_mesh_build *build)
     free(build->indices);
 }
 
-bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
-                    char *error, size_t error_size)
+bool host_mesh_load_kept(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
+                         host_vertex **vertices, uint32_t **indices, char *error, size_t error_size)
 {
     memset(mesh, 0, sizeof *mesh);
+    *vertices = NULL;
+    *indices = NULL;
     const struct aiScene *scene = import(path, error, error_size);
     if (!scene)
         return false;
@@ -159,10 +161,27 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
         .device = device, .scene = scene, .path = path, .mesh = mesh, .error = error, .error_size = error_size};
     mesh->path = strdup(path);
     bool ok = run_build(&build, world_from_model);
+    if (ok) {
+        *vertices = build.vertices;
+        *indices = build.indices;
+        build.vertices = NULL;
+        build.indices = NULL;
+    }
     end_build(&build);
     aiReleaseImport(scene);
     if (!ok)
         host_mesh_destroy(device, mesh);
+    return ok;
+}
+
+bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
+                    char *error, size_t error_size)
+{
+    host_vertex *vertices;
+    uint32_t *indices;
+    const bool ok = host_mesh_load_kept(device, path, world_from_model, mesh, &vertices, &indices, error, error_size);
+    free(vertices);
+    free(indices);
     return ok;
 }
 

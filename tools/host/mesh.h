@@ -62,6 +62,10 @@ typedef struct host_mesh {
 bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
                     char *error, size_t error_size);
 
+/* The same, and hands over its vertices and indices on the host, to be freed by free(): for a mesh that moves. */
+bool host_mesh_load_kept(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
+                         host_vertex **vertices, uint32_t **indices, char *error, size_t error_size);
+
 /* Creates a mesh of one opaque primitive from memory. */
 bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
                       uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,

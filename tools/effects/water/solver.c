@@ -48,6 +48,7 @@ static bool create_fluid(shot *s, water_state *state, char *error, size_t error_
     def.max_cells = state->source.most_cells;
     def.max_substeps = from->max_substeps;
     def.max_iterations = from->max_iterations;
+    water_size_bodies(s, state, &def);
     const virga_result result = virga_fluid_create(s->context, &def, &state->solver.fluid);
     if (!shot_ok(s, result, "creating the solver of water", error, error_size))
         return false;
@@ -57,7 +58,8 @@ static bool create_fluid(shot *s, water_state *state, char *error, size_t error_
 
 static bool create_copies(shot *s, water_state *state, char *error, size_t error_size)
 {
-    const VkDeviceSize size = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
+    state->solver.bodies_at = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
+    const VkDeviceSize size = state->solver.bodies_at + VIRGA_FLUID_MAX_BODIES * sizeof(virga_fluid_body_gpu);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     return host_buffer_create(&s->device, size, usage, HOST_BUFFER_READBACK, "particles before", &state->solver.before,
                               error, error_size) &&
@@ -67,13 +69,15 @@ static bool create_copies(shot *s, water_state *state, char *error, size_t error
 
 bool water_open_solver(shot *s, water_state *state, char *error, size_t error_size)
 {
-    return create_fluid(s, state, error, error_size) && set_fluid(s, state, error, error_size) &&
-           add_boxes(s, state, error, error_size) && create_copies(s, state, error, error_size);
+    return water_open_bodies(s, state, error, error_size) && create_fluid(s, state, error, error_size) &&
+           set_fluid(s, state, error, error_size) && add_boxes(s, state, error, error_size) &&
+           water_add_bodies(s, state, error, error_size) && create_copies(s, state, error, error_size);
 }
 
 void water_close_solver(shot *s, water_state *state)
 {
     virga_fluid_destroy(&state->solver.fluid);
+    water_close_bodies(s, state);
     host_buffer_destroy(&s->device, &state->solver.before);
     host_buffer_destroy(&s->device, &state->solver.now);
     host_buffer_destroy(&s->device, &state->solver.densities.buffer);
@@ -86,15 +90,19 @@ static void copy_states(const water_solver *solver, VkCommandBuffer cmd)
 {
     const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT, passes = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     const VkAccessFlags written = VK_ACCESS_TRANSFER_WRITE_BIT;
-    virga_fluid_buffer particles;
+    virga_fluid_buffer particles, bodies;
     uint32_t count;
     virga_fluid_particles(solver->fluid, &particles, &count);
-    const VkBufferCopy copy = {0, 0, (VkDeviceSize)count * sizeof(virga_particle_gpu)};
-    const VkBufferCopy newest = {particles.offset, 0, copy.size};
+    virga_fluid_bodies(solver->fluid, &bodies);
+    const VkBufferCopy copy = {0, 0, solver->now.size};
+    const VkBufferCopy newest = {particles.offset, 0, (VkDeviceSize)count * sizeof(virga_particle_gpu)};
+    const VkBufferCopy newest_bodies = {bodies.offset, solver->bodies_at, bodies.size};
     host_memory_barrier(cmd, copying, written, copying, written | VK_ACCESS_TRANSFER_READ_BIT);
     vkCmdCopyBuffer(cmd, solver->now.buffer, solver->before.buffer, 1, &copy);
     host_memory_barrier(cmd, copying, written, copying, written);
     vkCmdCopyBuffer(cmd, particles.buffer, solver->now.buffer, 1, &newest);
+    if (bodies.size)
+        vkCmdCopyBuffer(cmd, bodies.buffer, solver->now.buffer, 1, &newest_bodies);
     host_memory_barrier(cmd, copying, written, VK_PIPELINE_STAGE_HOST_BIT | passes, VK_ACCESS_HOST_READ_BIT);
 }
 
@@ -106,6 +114,7 @@ bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double 
     const double moving_s = fmax(frame_s, 0) - fmax(frame_s - dt_s, 0);
     const virga_fluid_step_info info = {.dt_s = (float)fmin(fmax(moving_s, 0), 1)};
     if (!set_fluid(s, state, error, error_size) ||
+        !water_drive_bodies(s, state, frame_s + scene_water_of(s->scene)->start_s, error, error_size) ||
         !shot_ok(s, virga_fluid_step(solver->fluid, cmd, &info), "stepping the solver of water", error, error_size))
         return false;
     const bool is_first = !solver->count;
@@ -114,6 +123,7 @@ bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double 
     solver->before_s = is_first ? frame_s : solver->now_s;
     solver->now_s = frame_s;
     solver->step_frame = s->device.frame;
+    solver->frame_s[s->device.frame % WATER_TIMES] = frame_s;
     return true;
 }
 
@@ -136,7 +146,7 @@ static void mix(const virga_particle_gpu *a, const virga_particle_gpu *b, double
     }
 }
 
-static bool wait_for_states(shot *s, const water_solver *solver, char *error, size_t error_size)
+bool water_wait_for_solver(shot *s, const water_solver *solver, char *error, size_t error_size)
 {
     if (!host_wait(&s->device, error, error_size))
         return false;
@@ -150,7 +160,7 @@ static bool mix_all(shot *s, const water_solver *solver, double time_s, virga_pa
 {
     const virga_particle_gpu *before = solver->before.mapped, *now = solver->now.mapped;
     const double h = solver->now_s - solver->before_s, part = h > 0 ? fmax((time_s - solver->before_s) / h, 0) : 1;
-    if (!wait_for_states(s, solver, error, error_size))
+    if (!water_wait_for_solver(s, solver, error, error_size))
         return false;
     if (part >= 1)
         memcpy(out, now, solver->count * sizeof *out);
@@ -238,7 +248,7 @@ void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)
     char ignored[256];
     virga_fluid_stats now;
     virga_fluid_stats_get(solver->fluid, &now);
-    if (!wait_for_states(s, solver, ignored, sizeof ignored))
+    if (!water_wait_for_solver(s, solver, ignored, sizeof ignored))
         return;
     jsonl_begin_object(stats, "solver");
     jsonl_uint64(stats, "particles", now.particles);
@@ -249,5 +259,6 @@ void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)
     jsonl_number(stats, "max_speed_m_s", (double)now.max_speed_m_s);
     write_energy(solver, &scene_water_of(s->scene)->solver, stats);
     write_volume_error(s, solver, stats);
+    water_write_body_stats(state, stats);
     jsonl_end(stats);
 }

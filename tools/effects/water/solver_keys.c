@@ -27,11 +27,42 @@ static const scene_row box_rows[] = {
 };
 static const scene_group box_group = SCENE_GROUP(scene_solver_box, box_rows);
 
+static const scene_row body_key_rows[] = {
+    NUMBER(scene_body_key, time_s, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "when the body is there"),
+    NUMBER(scene_body_key, position_m, -MAX_SOLVER_M, MAX_SOLVER_M, NULL, RESTARTS, "of its origin then"),
+    NUMBER(scene_body_key, rotation_deg, -3600000, 3600000, "[0, 0, 0]", RESTARTS,
+           "about the X, then Y, then Z axis; whole turns count"),
+};
+static const scene_group body_key_group = SCENE_GROUP(scene_body_key, body_key_rows);
+
+static const scene_row body_rows[] = {
+    TEXT(scene_body, name, 40, "body", RESTARTS, "of the body, in statistics"),
+    FILE_NAME(scene_body, file, OPTIONAL, "a model without holes; else box_m"),
+    NUMBER(scene_body, box_m, 0, MAX_SOLVER_M, "[0, 0, 0]", RESTARTS, "sides of a box around its origin; else file"),
+    NUMBER(scene_body, scale, 0.000001, 1000000, "1", RESTARTS, "of the model (file)"),
+    NUMBER(scene_body, density, 0, 100, "0", RESTARTS,
+           "over that of water, at least 0.05; the water moves it. 0: it moves by keys, or stands still"),
+    NUMBER(scene_body, friction, 0, 10, "0.4", RESTARTS, "on the walls (density)"),
+    NUMBER(scene_body, position_m, -MAX_SOLVER_M, MAX_SOLVER_M, "[0, 0, 0]", RESTARTS, "of its origin at the start"),
+    NUMBER(scene_body, rotation_deg, -36000, 36000, "[0, 0, 0]", RESTARTS, "about the X, then Y, then Z axis"),
+    NUMBER(scene_body, velocity_m_s, -1000, 1000, "[0, 0, 0]", RESTARTS, "at the start (density)"),
+    NUMBER(scene_body, spin_deg_s, -5700, 5700, "[0, 0, 0]", RESTARTS, "at the start (density)"),
+    LIST(scene_body, keys, key_count, &body_key_group, 0, 100000, "[]", "places by time, with lines in between"),
+    SWITCH(scene_body, drawn, "true", RESTARTS, "it is seen"),
+    NUMBER(scene_body, color, 0, 1, "[0.6, 0.3, 0.15]", RESTARTS, "linear (box)"),
+    NUMBER(scene_body, roughness, 0, 1, "0.5", RESTARTS, "of its surface (box)"),
+};
+static const scene_group body_group = SCENE_GROUP(scene_body, body_rows);
+
 static const scene_row solver_rows[] = {
     NUMBER(scene_solver, spacing_m, 0.0001, 10, "0.02", RESTARTS,
            "distance of particles at rest; half of it: eight times as many, and twice the substeps"),
     GROUP(scene_solver, walls, &wall_group, RESTARTS, "the container, relative to water.position_m as all below"),
     LIST(scene_solver, boxes, box_count, &box_group, 0, SCENE_SOLVER_MAX_BOXES, "[]", "water at the start"),
+    TEXT_LIST(scene_solver, meshes, mesh_count, 200, 0, SCENE_SOLVER_MAX_BODIES, "[]",
+              "what of the scene stands in the water: in the names of meshes or materials without holes"),
+    LIST(scene_solver, bodies, body_count, &body_group, 0, SCENE_SOLVER_MAX_BODIES, "[]",
+         "what moves in the water, by the water or by keys"),
     NUMBER(scene_solver, gravity_m_s2, -1000, 1000, "[0, -9.81, 0]", LIVE,
            "acceleration; for a container that moves: of gravity less its own"),
     NUMBER(scene_solver, viscosity_m2_s, 0, 10, "0.001", LIVE,
@@ -115,6 +146,63 @@ static bool check_box(const scene_file *scene, uint32_t index, char *error, size
     return true;
 }
 
+/* One line about a key of a body. */
+#define REFUSE_BODY(key_name, ...)                                            \
+    do {                                                                      \
+        char key[96];                                                         \
+        snprintf(key, sizeof key, "water.solver.bodies.%u." key_name, index); \
+        return scene_file_refuse(scene, key, error, error_size, __VA_ARGS__); \
+    } while (0)
+
+static bool is_zero(const double v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+static bool check_motion(const scene_file *scene, uint32_t index, char *error, size_t error_size)
+{
+    const scene_body *body = &scene_water_of(scene)->solver.bodies[index];
+    if (body->density > 0 && body->key_count)
+        REFUSE_BODY("keys", "expected none, as density is above 0");
+    if (!(body->density > 0) && !is_zero(body->velocity_m_s))
+        REFUSE_BODY("velocity_m_s", "expected [0, 0, 0], as density is 0");
+    if (!(body->density > 0) && !is_zero(body->spin_deg_s))
+        REFUSE_BODY("spin_deg_s", "expected [0, 0, 0], as density is 0");
+    for (uint32_t i = 1; i < body->key_count; i++)
+        if (body->keys[i].time_s <= body->keys[i - 1].time_s)
+            REFUSE_BODY("keys", "expected rising times, got %g after %g", body->keys[i].time_s,
+                        body->keys[i - 1].time_s);
+    return true;
+}
+
+static bool check_body(const scene_file *scene, uint32_t index, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    const scene_body *body = &from->bodies[index];
+    if (body->file && !is_zero(body->box_m))
+        REFUSE_BODY("box_m", "expected none, as file is there");
+    for (int axis = 0; axis < 3; axis++)
+        if (!body->file && body->box_m[axis] < from->spacing_m)
+            REFUSE_BODY("box_m", "expected sides of at least spacing_m (%g), or file beside it; got %g along %c",
+                        from->spacing_m, body->box_m[axis], "xyz"[axis]);
+    if (body->density > 0 && body->density < 0.05)
+        REFUSE_BODY("density", "expected 0, or 0.05 to 100, got %g", body->density);
+    return check_motion(scene, index, error, error_size);
+}
+
+static bool check_bodies(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    if (from->body_count + from->mesh_count > SCENE_SOLVER_MAX_BODIES)
+        return scene_file_refuse(scene, "water.solver.bodies", error, error_size,
+                                 "expected at most %d with the %u meshes, got %u", SCENE_SOLVER_MAX_BODIES,
+                                 from->mesh_count, from->body_count);
+    for (uint32_t i = 0; i < from->body_count; i++)
+        if (!check_body(scene, i, error, error_size))
+            return false;
+    return true;
+}
+
 static bool check_walls(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_solver *from = &scene_water_of(scene)->solver;
@@ -151,7 +239,8 @@ bool water_check_solver(const scene_file *scene, char *error, size_t error_size)
     const scene_solver *from = &scene_water_of(scene)->solver;
     if (!water_is_solved(scene))
         return true;
-    if (!check_beside(scene, error, error_size) || !check_walls(scene, error, error_size))
+    if (!check_beside(scene, error, error_size) || !check_walls(scene, error, error_size) ||
+        !check_bodies(scene, error, error_size))
         return false;
     for (uint32_t i = 0; i < from->box_count; i++)
         if (!check_box(scene, i, error, error_size))

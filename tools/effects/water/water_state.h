@@ -6,14 +6,31 @@
 #include "particle_sequence.h"
 #include "water.h"
 
+/* A body in simulated water. */
+typedef struct water_body {
+    const scene_body *from; /* NULL: a mesh of the scene, which stands still */
+    host_mesh mesh;         /* no vertices: it is not drawn, or not by this effect */
+    host_vertex *vertices;  /* around its origin */
+    uint32_t *indices;
+    uint32_t vertex_count, index_count;
+    double low[3], high[3]; /* bounds of these */
+} water_body;
+
+#define WATER_TIMES 16 /* frames whose times are known; more than are in flight */
+
 /* Water that is simulated: particles and their two newest states on the host, for sub-frames and statistics. */
 typedef struct water_solver {
-    virga_fluid *fluid;      /* NULL: particles are of files */
-    host_buffer before, now; /* virga_particle_gpu, after the last step but one and after the last */
-    double before_s, now_s;  /* their times, as frame_s */
-    uint32_t count;          /* particles after the newest step */
-    uint64_t step_frame;     /* device frame of the newest step */
-    shot_read densities;     /* of particles, for statistics */
+    virga_fluid *fluid; /* NULL: particles are of files */
+    /* virga_particle_gpu, then virga_fluid_body_gpu; after the last step but one and after the last. */
+    host_buffer before, now;
+    VkDeviceSize bodies_at; /* where the bodies begin in them */
+    water_body bodies[SCENE_SOLVER_MAX_BODIES];
+    uint32_t body_count;
+    double frame_s[WATER_TIMES]; /* times of the newest frames, by device frame */
+    double before_s, now_s;      /* their times, as frame_s */
+    uint32_t count;              /* particles after the newest step */
+    uint64_t step_frame;         /* device frame of the newest step */
+    shot_read densities;         /* of particles, for statistics */
 } water_solver;
 
 /* What the files say of the simulation, in metres. */
@@ -82,7 +99,30 @@ bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_s
 /* Copies them at state->time_s, to solver.count particles. */
 bool water_copy_solved(shot *s, water_state *state, virga_particle_gpu *particles, char *error, size_t error_size);
 
+/* Waits for the newest step, and makes its states readable. */
+bool water_wait_for_solver(shot *s, const water_solver *solver, char *error, size_t error_size);
+
 void water_write_solver_stats(shot *s, water_state *state, jsonl *stats);
+
+/* ---- bodies in it */
+
+/* Loads their meshes, before the solver is created. */
+bool water_open_bodies(shot *s, water_state *state, char *error, size_t error_size);
+void water_close_bodies(shot *s, water_state *state);
+
+/* What the solver needs for them. */
+void water_size_bodies(const shot *s, const water_state *state, virga_fluid_def *def);
+
+/* Puts them into the solver. */
+bool water_add_bodies(shot *s, water_state *state, char *error, size_t error_size);
+
+/* Leads those that have keys to a time of the scene. */
+bool water_drive_bodies(shot *s, water_state *state, double time_s, char *error, size_t error_size);
+
+/* Moves what is drawn of them to a time of the scene. */
+bool water_draw_bodies(shot *s, water_state *state, VkCommandBuffer cmd, double time_s, char *error, size_t error_size);
+
+void water_write_body_stats(const water_state *state, jsonl *stats);
 
 /* ---- */
 

@@ -1,0 +1,17 @@
+/* body_pose.h - where a body in simulated water is. Internal to bodies.c and body_pose.c. */
+#ifndef VIRGA_EFFECTS_BODY_POSE_H
+#define VIRGA_EFFECTS_BODY_POSE_H
+
+#include "water_state.h"
+
+typedef struct body_place {
+    double position_m[3]; /* of its origin, relative to that of the water */
+    double rotation[4];   /* quaternion x, y, z, w */
+} body_place;
+
+/* By its keys at a time of the scene, or where it is at the start. */
+void body_place_of_keys(const scene_body *from, double time_s, body_place *out);
+
+void body_copy_place(const body_place *place, float position_m[3], float rotation[4]);
+
+#endif
