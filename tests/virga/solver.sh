@@ -90,6 +90,39 @@ bodies() {
 bodies bodies --frames 1-5 --samples 2
 python3 "$here/check_bodies.py" "$work/bodies" 20 || fail "bodies"
 
+# A box drives through a puddle: its water becomes particles there, and all of it is counted.
+cat >"$work/road.obj" <<'END'
+o road
+v -3 0 -3
+v 3 0 -3
+v 3 0 3
+v -3 0 3
+f 1 4 3 2
+END
+cat >"$work/puddle.yaml" <<'YAML'
+virga: 1
+meshes: [{file: road.obj}]
+camera: {keys: [{position_m: [0, 1, 2], look_at_m: [0, 0, 0]}]}
+frames: {fps: 20, first: 1, last: 8, size: [32, 32]}
+rain: {rate_mm_h: 0, max_drops: 1024, occlusion_size: 64}
+ground: {on: true, cells: 128, start_wetness: 1, start_water_mm: 40}
+splash: {on: false}
+water:
+  max_foam: 0
+  spray_density: 0
+  solver:
+    spacing_m: 0.025
+    walls: {low_m: [-0.8, 0, -0.6], high_m: [0.8, 0.5, 0.6]}
+    exchange: {max_particles: 4096, margin_m: 0.05, rest_height_m: 0.1}
+    bodies:
+      - {name: wheel, box_m: [0.1, 0.2, 0.2], keys: [{time_s: 0, position_m: [-0.4, 0.12, 0]},
+         {time_s: 0.3, position_m: [0.4, 0.12, 0]}]}
+YAML
+timeout 120 "$virga" render "$work/puddle.yaml" -o "$work/puddle" --device "$device" --stats --frames 1-8 \
+    >"$work/log" 2>&1 || { cat "$work/log"; fail "a puddle"; }
+! grep '^validation: ' "$work/log" || fail "a puddle: validation"
+python3 "$here/check_exchange.py" "$work/puddle" || fail "water of a puddle"
+
 # refuse WHAT OPTION...: rendering refuses the input, in one line that has WHAT.
 refuse() {
     local what=$1 said
@@ -147,6 +180,10 @@ expect 'water.solver.bodies.1.keys: expected rising times, got 0.1 after 0.2' \
     --set water.solver.bodies.1.keys.0.time_s=0.2
 expect 'water.solver.bodies: expected at most 8 with the 8 meshes, got 2' \
     --set 'water.solver.meshes=[a, a, a, a, a, a, a, a]'
+
+at=puddle.yaml
+expect 'water.solver.exchange: expected ground.on beside it' --set ground.on=false
+expect 'water.solver.spacing_m: expected at most 0.1 with exchange, got 0.11' --set water.solver.spacing_m=0.11
 
 [ $failures = 0 ] && echo "water is simulated"
 exit $((failures > 0))

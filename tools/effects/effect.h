@@ -147,7 +147,7 @@ typedef struct tool_count {
     double (*value)(const void *state);
 } tool_count;
 
-#define TOOL_BUDGET_ROWS 12
+#define TOOL_BUDGET_ROWS 13
 
 /* A budget of water, in nanolitres. */
 typedef struct tool_budget {

@@ -349,9 +349,10 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* start + rained_total + spray + spray_off_ground + touched = off_ground + absorbed + film + puddle + run_off +
+/* start + rained_total + spray + spray_off_ground + touched + given = taken + off_ground + absorbed + film + puddle + run_off +
  * evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes and has not
- * fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such water. */
+ * fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such water, and
+ * `taken` and `given` is what a solver of water took from the ground and gave to it. */
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
@@ -364,6 +365,9 @@ static void write_water(const virga_ground_stats *now, jsonl *stats)
     jsonl_number(stats, "cached", (double)now->cached_nl * 1e-3);
     jsonl_number(stats, "evicted", (double)now->evicted_nl * 1e-3);
     jsonl_number(stats, "touched", (double)now->touched_nl * 1e-3);
+    jsonl_number(stats, "taken", (double)now->taken_nl * 1e-3);
+    jsonl_number(stats, "given", (double)now->given_nl * 1e-3);
+    jsonl_number(stats, "given_off_ground", (double)now->given_off_ground_nl * 1e-3);
     jsonl_number(stats, "spray", (double)now->spray_nl * 1e-3);
     jsonl_number(stats, "spray_off_ground", (double)now->spray_off_ground_nl * 1e-3);
     jsonl_number(stats, "in_air", (double)(now->flown_nl - now->returned_nl) * 1e-3);

@@ -297,6 +297,10 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     water_state *p = state;
     (void)camera;
     p->frame_s = time_s - scene_water_of(s->scene)->start_s;
+    if (p->solver.fluid && scene_water_of(s->scene)->solver.exchange.max_particles) {
+        frame->exchange.fluid = p->solver.fluid;
+        memcpy(frame->exchange.origin_m, scene_water_of(s->scene)->position_m, sizeof frame->exchange.origin_m);
+    }
     return !p->water || water_fill_particles(s, p, p->frame_s, &frame->water, error, error_size);
 }
 
@@ -405,6 +409,8 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     virga_water_stats now;
     if (!p->water || !water_step_stats(s, p, &now))
         return;
+    if (p->solver.fluid)
+        water_count_solved(s, p);
     jsonl_begin_object(stats, "water");
     jsonl_uint64(stats, "particles", now.particles);
     jsonl_uint64(stats, "invalid", now.invalid);

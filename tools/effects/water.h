@@ -46,6 +46,14 @@ typedef struct scene_body {
 
 #define SCENE_SOLVER_MAX_BOXES 16 /* the max of the library between two steps */
 
+/* Water that comes from the cells of the ground, and goes back to them. */
+typedef struct scene_exchange {
+    uint32_t max_particles; /* 0: none */
+    double margin_m;
+    bool open_sides;
+    double rest_speed_m_s, film_speed_m_s, rest_s, rest_height_m;
+} scene_exchange;
+
 typedef struct scene_solver {
     double spacing_m; /* 0: there is no solver */
     scene_solver_walls walls;
@@ -55,6 +63,7 @@ typedef struct scene_solver {
     uint32_t mesh_count;
     scene_body *bodies;
     uint32_t body_count;
+    scene_exchange exchange;
     double gravity_m_s2[3];
     double viscosity_m2_s, cfl, solver_error;
     uint32_t max_substeps, max_iterations;

@@ -96,6 +96,31 @@ bool water_drive_bodies(shot *s, water_state *state, double time_s, char *error,
     return true;
 }
 
+/* Bodies turn, so each takes as much room as its farthest point needs. */
+void water_body_region(const water_state *state, double time_s, double margin_m, float low_m[2], float high_m[2])
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < state->solver.body_count; i++) {
+        const water_body *body = &state->solver.bodies[i];
+        if (!body->from || !body->from->key_count)
+            continue;
+        body_place place;
+        double radius2 = 0;
+        for (int axis = 0; axis < 3; axis++)
+            radius2 += pow(fmax(fabs(body->low[axis]), fabs(body->high[axis])), 2);
+        body_place_of_keys(body->from, time_s, &place);
+        for (int axis = 0; axis < 2; axis++) {
+            const double at = place.position_m[2 * axis], reach = sqrt(radius2) + margin_m;
+            low[axis] = fmin(low[axis], at - reach);
+            high[axis] = fmax(high[axis], at + reach);
+        }
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        low_m[axis] = low[0] < high[0] ? (float)low[axis] : 0;
+        high_m[axis] = low[0] < high[0] ? (float)high[axis] : 0;
+    }
+}
+
 /* ---- by the solver */
 
 static void from_state(const virga_fluid_body_gpu *from, body_place *out)

@@ -16,6 +16,13 @@ static bool set_fluid(shot *s, const water_state *state, char *error, size_t err
     settings.viscosity_m2_s = (float)from->viscosity_m2_s;
     settings.cfl = (float)from->cfl;
     settings.solver_error = (float)from->solver_error;
+    if (from->exchange.max_particles) {
+        settings.open_sides = from->exchange.open_sides;
+        settings.rest_speed_m_s = (float)from->exchange.rest_speed_m_s;
+        settings.film_speed_m_s = (float)from->exchange.film_speed_m_s;
+        settings.rest_s = (float)from->exchange.rest_s;
+        settings.rest_height_m = (float)from->exchange.rest_height_m;
+    }
     for (int axis = 0; axis < 3; axis++) {
         settings.low_m[axis] = (float)from->walls.low_m[axis];
         settings.high_m[axis] = (float)from->walls.high_m[axis];
@@ -45,6 +52,7 @@ static bool create_fluid(shot *s, water_state *state, char *error, size_t error_
     const scene_solver *from = &scene_water_of(s->scene)->solver;
     virga_fluid_def def = virga_default_fluid_def();
     def.max_particles = state->source.most < 64 ? 64 : state->source.most;
+    def.max_exchanged = from->exchange.max_particles;
     def.max_cells = state->source.most_cells;
     def.max_substeps = from->max_substeps;
     def.max_iterations = from->max_iterations;
@@ -106,15 +114,29 @@ static void copy_states(const water_solver *solver, VkCommandBuffer cmd)
     host_memory_barrier(cmd, copying, written, VK_PIPELINE_STAGE_HOST_BIT | passes, VK_ACCESS_HOST_READ_BIT);
 }
 
+/* Where water of the ground becomes particles, and the spray that ends others. */
+static void fill_exchange(const shot *s, const water_state *state, double time_s, virga_fluid_step_info *info)
+{
+    const scene_exchange *exchange = &scene_water_of(s->scene)->solver.exchange;
+    virga_water_leavers leavers;
+    if (!exchange->max_particles)
+        return;
+    water_body_region(state, time_s, exchange->margin_m, info->region_low_m, info->region_high_m);
+    virga_water_leavers_get(state->water, &leavers);
+    info->leavers = leavers.leavers;
+    info->leavers_size = leavers.size;
+}
+
 /* Before the water's time begins it stands still. */
 bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double frame_s, double dt_s, char *error,
                        size_t error_size)
 {
     water_solver *solver = &state->solver;
     const double moving_s = fmax(frame_s, 0) - fmax(frame_s - dt_s, 0);
-    const virga_fluid_step_info info = {.dt_s = (float)fmin(fmax(moving_s, 0), 1)};
-    if (!set_fluid(s, state, error, error_size) ||
-        !water_drive_bodies(s, state, frame_s + scene_water_of(s->scene)->start_s, error, error_size) ||
+    const double time_s = frame_s + scene_water_of(s->scene)->start_s;
+    virga_fluid_step_info info = {.dt_s = (float)fmin(fmax(moving_s, 0), 1)};
+    fill_exchange(s, state, time_s, &info);
+    if (!set_fluid(s, state, error, error_size) || !water_drive_bodies(s, state, time_s, error, error_size) ||
         !shot_ok(s, virga_fluid_step(solver->fluid, cmd, &info), "stepping the solver of water", error, error_size))
         return false;
     const bool is_first = !solver->count;
@@ -233,13 +255,42 @@ static void write_energy(const water_solver *solver, const scene_solver *from, j
 static void write_volume_error(shot *s, const water_solver *solver, jsonl *stats)
 {
     const float *densities = solver->densities.buffer.mapped;
-    double above = 0;
-    if (!densities || !solver->count)
+    const virga_particle_gpu *now = solver->now.mapped;
+    double above = 0, count = 0;
+    if (!densities)
         return;
     host_buffer_invalidate(&s->device, &solver->densities.buffer);
-    for (uint32_t i = 0; i < solver->count; i++)
-        above += fmax((double)densities[i] - 1, 0);
-    jsonl_number(stats, "volume_error", above / solver->count);
+    for (uint32_t i = 0; i < solver->count; i++) {
+        above += now[i].share > 0 ? fmax((double)densities[i] - 1, 0) : 0;
+        count += now[i].share > 0;
+    }
+    jsonl_number(stats, "volume_error", above / fmax(count, 1));
+}
+
+/* What came from the ground and went there. */
+static void write_exchange(const virga_fluid_stats *now, jsonl *stats)
+{
+    jsonl_begin_object(stats, "exchange");
+    jsonl_uint64(stats, "free", now->free);
+    jsonl_uint64(stats, "waiting", now->waiting);
+    jsonl_number(stats, "particle_ul", now->particle_nl * 1e-3);
+    jsonl_number(stats, "taken_ul", (double)now->taken_nl * 1e-3);
+    jsonl_number(stats, "given_ul", (double)now->given_nl * 1e-3);
+    jsonl_number(stats, "sprayed_ul", (double)now->sprayed_nl * 1e-3);
+    jsonl_number(stats, "rest_ul", (double)now->rest_nl * 1e-3);
+    jsonl_end(stats);
+}
+
+void water_count_solved(shot *s, water_state *state)
+{
+    const virga_particle_gpu *now = state->solver.now.mapped;
+    char ignored[256];
+    double shares = 0;
+    if (!water_wait_for_solver(s, &state->solver, ignored, sizeof ignored))
+        return;
+    for (uint32_t i = 0; i < state->solver.count; i++)
+        shares += (double)now[i].share;
+    state->volume_m3 = shares * scene_water_of(s->scene)->volume * pow(state->source.spacing_m, 3);
 }
 
 void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)
@@ -259,6 +310,8 @@ void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)
     jsonl_number(stats, "max_speed_m_s", (double)now.max_speed_m_s);
     write_energy(solver, &scene_water_of(s->scene)->solver, stats);
     write_volume_error(s, solver, stats);
+    if (scene_water_of(s->scene)->solver.exchange.max_particles)
+        write_exchange(&now, stats);
     water_write_body_stats(state, stats);
     jsonl_end(stats);
 }

@@ -1,6 +1,7 @@
 /* solver_keys.c - keys of water.solver in scene files, and what one value alone does not show. */
 #include "water_state.h"
 
+#include "ground.h"
 #include "scene_rows.h"
 
 #include <math.h>
@@ -54,6 +55,19 @@ static const scene_row body_rows[] = {
 };
 static const scene_group body_group = SCENE_GROUP(scene_body, body_rows);
 
+static const scene_row exchange_rows[] = {
+    WHOLE(scene_exchange, max_particles, 1, 1048576, "16384", RESTARTS, "that water of the ground can be at once"),
+    NUMBER(scene_exchange, margin_m, 0, 100, "0.1", LIVE,
+           "around bodies with keys: there water of the ground becomes particles"),
+    SWITCH(scene_exchange, open_sides, "false", LIVE,
+           "particles near a wall go to the ground, as if there were no walls"),
+    NUMBER(scene_exchange, rest_speed_m_s, 0, 10, "0.1", LIVE, "particles that are slower for rest_s go to the ground"),
+    NUMBER(scene_exchange, film_speed_m_s, 0, 10, "0.5", LIVE, "the same of those with few others around them"),
+    NUMBER(scene_exchange, rest_s, 0, 60, "0.25", LIVE, "how long"),
+    NUMBER(scene_exchange, rest_height_m, 0, 100, "0.05", LIVE, "and lower than this over the floor of the walls"),
+};
+static const scene_group exchange_group = SCENE_GROUP(scene_exchange, exchange_rows);
+
 static const scene_row solver_rows[] = {
     NUMBER(scene_solver, spacing_m, 0.0001, 10, "0.02", RESTARTS,
            "distance of particles at rest; half of it: eight times as many, and twice the substeps"),
@@ -63,6 +77,8 @@ static const scene_row solver_rows[] = {
               "what of the scene stands in the water: in the names of meshes or materials without holes"),
     LIST(scene_solver, bodies, body_count, &body_group, 0, SCENE_SOLVER_MAX_BODIES, "[]",
          "what moves in the water, by the water or by keys"),
+    OPTIONAL_GROUP(scene_solver, exchange, &exchange_group, RESTARTS,
+                   "water of the ground becomes particles around bodies with keys, and is water of the ground at rest"),
     NUMBER(scene_solver, gravity_m_s2, -1000, 1000, "[0, -9.81, 0]", LIVE,
            "acceleration; for a container that moves: of gravity less its own"),
     NUMBER(scene_solver, viscosity_m2_s, 0, 10, "0.001", LIVE,
@@ -93,7 +109,7 @@ double water_box_particles(const scene_solver *from, const scene_solver_box *box
 
 static double count_particles(const scene_solver *from)
 {
-    double count = 0;
+    double count = from->exchange.max_particles;
     for (uint32_t i = 0; i < from->box_count; i++)
         count += water_box_particles(from, &from->boxes[i]);
     return count;
@@ -234,13 +250,27 @@ static bool check_beside(const scene_file *scene, char *error, size_t error_size
     return true;
 }
 
+#define MAX_EXCHANGED_M 0.1 /* as in virga/fluid.h */
+
+static bool check_exchange(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    if (!from->exchange.max_particles)
+        return true;
+    if (!scene_ground_of(scene)->on)
+        return scene_file_refuse(scene, "water.solver.exchange", error, error_size, "expected ground.on beside it");
+    return from->spacing_m <= MAX_EXCHANGED_M ||
+           scene_file_refuse(scene, "water.solver.spacing_m", error, error_size,
+                             "expected at most %g with exchange, got %g", MAX_EXCHANGED_M, from->spacing_m);
+}
+
 bool water_check_solver(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_solver *from = &scene_water_of(scene)->solver;
     if (!water_is_solved(scene))
         return true;
     if (!check_beside(scene, error, error_size) || !check_walls(scene, error, error_size) ||
-        !check_bodies(scene, error, error_size))
+        !check_bodies(scene, error, error_size) || !check_exchange(scene, error, error_size))
         return false;
     for (uint32_t i = 0; i < from->box_count; i++)
         if (!check_box(scene, i, error, error_size))

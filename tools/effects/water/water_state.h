@@ -102,6 +102,9 @@ bool water_copy_solved(shot *s, water_state *state, virga_particle_gpu *particle
 /* Waits for the newest step, and makes its states readable. */
 bool water_wait_for_solver(shot *s, const water_solver *solver, char *error, size_t error_size);
 
+/* Adds up the water of the newest step. */
+void water_count_solved(shot *s, water_state *state);
+
 void water_write_solver_stats(shot *s, water_state *state, jsonl *stats);
 
 /* ---- bodies in it */
@@ -121,6 +124,9 @@ bool water_drive_bodies(shot *s, water_state *state, double time_s, char *error,
 
 /* Moves what is drawn of them to a time of the scene. */
 bool water_draw_bodies(shot *s, water_state *state, VkCommandBuffer cmd, double time_s, char *error, size_t error_size);
+
+/* Corners (x, z) of what is around those that have keys, at a time of the scene. All 0: there are none. */
+void water_body_region(const water_state *state, double time_s, double margin_m, float low_m[2], float high_m[2]);
 
 void water_write_body_stats(const water_state *state, jsonl *stats);
 
