@@ -61,6 +61,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.5),
     SETTING(FLOAT, mist_max_mm, 0, 1, 0.6),
     SETTING(FLOAT, air_share, 0, 2, 0.4),
+    SETTING(FLOAT, air_outward, 0, 2, 0),
     SETTING(FLOAT, particle_radius_mm, 0.2, 5, 1.5),
     SETTING(FLOAT, penalty, 0, 1, 0.1),
     SETTING(FLOAT, particle_band, 1, 16, 4),

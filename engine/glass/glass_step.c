@@ -262,6 +262,20 @@ static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->grid_rows += !out->grid_rows;
 }
 
+/* Air that meets the outside of the pane at its middle spreads along it. Returns the speed at the middle of an edge. */
+static double fill_air(const virga_glass *glass, const double air[3], virga_glass_tick_gpu *out)
+{
+    const float *n = glass->normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES / 2];
+    double meets = 0;
+    for (int axis = 0; axis < 3; axis++)
+        meets -= air[axis] * (double)n[axis];
+    const double at_edge = fmax(meets, 0) * (double)glass->settings.air_outward;
+    store(air, out->air);
+    out->air_outward[0] = (float)(at_edge / (0.5 * (double)glass->def.width_m));
+    out->air_outward[1] = (float)(at_edge / (0.5 * (double)glass->def.height_m));
+    return at_edge;
+}
+
 static void fill_motion(const virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *out)
 {
     const double gravity[3] = {-(double)info->acceleration_m_s2[0], -VIRGA_GRAVITY - (double)info->acceleration_m_s2[1],
@@ -276,11 +290,11 @@ static void fill_motion(const virga_glass *glass, const virga_glass_step_info *i
     to_pane(info, turn, local);
     store(local, out->spin);
     to_pane(info, air, local);
-    store(local, out->air);
+    const double at_corner = sqrt(2) * fill_air(glass, local, out);
     /* The max acceleration anywhere on the pane. The centrifugal part grows with the distance from the axis. */
     const double spin = length_of(turn);
     out->max_acceleration = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
-    out->max_air_m_s = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
+    out->max_air_m_s = (float)(1.01 * (length_of(air) + at_corner) * (double)glass->settings.air_share);
     out->pane = glass_describe_pane(glass);
 }
 

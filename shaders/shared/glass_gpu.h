@@ -81,6 +81,7 @@ struct virga_glass_tick_gpu {
     float drag;              /* N s/m per metre of base radius: viscous resistance of a running drop */
     float air[3];            /* m/s, velocity of the free air relative to the pane */
     float air_share;         /* [0; 2], speed of the air at the drops over that of the free air */
+    float air_outward[2];    /* 1/s, along u and v: speed of the air that spreads from the middle, over the distance */
     float air_drag;          /* N, force on a drop with a base of 1 m radius in air of 1 m/s */
     float fall[3];           /* unit length, direction of the drops that land */
     float fall_cosine;       /* max cosine between the opposite of `fall` and the pane's normals */

@@ -84,6 +84,35 @@ static void a_turning_pane_throws_drops_outwards(void **unused)
     glass_fixture_close(&f);
 }
 
+/* Air that comes straight down on a level pane spreads from its middle in proportion to the distance: half of it at
+ * the edge, and its force with the square. Air from the other side does not. */
+static void air_from_ahead_blows_drops_outwards(void **unused)
+{
+    (void)unused;
+    const double speed = 60, radius = 2e-3;
+    for (int behind = 0; behind < 2; behind++) {
+        open_creeping(NULL);
+        f.settings.air_share = 0.8f;
+        f.settings.air_outward = 0.5f;
+        const double angle = glass_rest_deg(&f.settings) * M_PI / 180;
+        const double section = (angle - sin(angle) * cos(angle)) / (sin(angle) * sin(angle));
+        const double drag = 0.5 * VIRGA_AIR_DENSITY * 0.9 * section * radius * radius;
+        const double at = sqrt(glass_hold(&f.settings) * radius / drag) / (0.8 * 0.5 * speed); /* in half widths */
+        REQUIRE(at > 0.2 && at < 0.9);
+        f.info.world_from_pane[0] = f.info.world_from_pane[7] = 1;
+        f.info.world_from_pane[5] = -1;
+        f.info.wind_m_s[1] = (float)(behind ? speed : -speed);
+        const uint32_t held = glass_fixture_land(&f, 0.08 + 0.97 * at * 0.08, 0.06, water_of(radius))->id;
+        const uint32_t blown = glass_fixture_land(&f, 0.08 - 1.03 * at * 0.08, 0.06, water_of(radius))->id;
+        glass_fixture_step(&f, 10, true);
+        assert_false(ran(held));
+        assert_int_equal(ran(blown), !behind);
+        if (!behind)
+            assert_direction(blown, -1, 0, 2e-3);
+        glass_fixture_close(&f);
+    }
+}
+
 /* ---- bent panes */
 
 enum { POINTS = 33 };
@@ -335,6 +364,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(acceleration_of_the_car_sets_drops_in_motion),
         cmocka_unit_test(a_turning_pane_throws_drops_outwards),
+        cmocka_unit_test(air_from_ahead_blows_drops_outwards),
         cmocka_unit_test(a_bent_pane_holds_drops_by_its_slope_where_they_are),
         cmocka_unit_test(drops_on_a_windshields_side_run_outwards),
         cmocka_unit_test(a_blade_follows_a_bent_pane),

@@ -276,6 +276,7 @@ static const field glass_fields[] = {
     F(textured_px, 0, 64),
     F(textures_per_frame, 0, 1024),
     F(veil, 0, 1),
+    F(air_outward, 0, 2),
     LIGHTS(virga_glass_settings),
 };
 

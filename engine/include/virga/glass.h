@@ -350,6 +350,12 @@ typedef struct virga_glass_settings {
     /* [0; 2] share of the air flow along the surface that pulls at drops. Default 0.4. */
     float air_share;
 
+    /* [0; 2] air that meets the outside of the pane head-on spreads along it, as before a camera's lens: it stands
+     * still in the middle and has this share of its speed at the middle of each edge. It pulls at drops as air_share
+     * says. A disc in a potential flow has 2 / pi. 0: only the part of the free air that is along the pane. Default
+     * 0. */
+    float air_outward;
+
     /* ---- Wipers. */
 
     virga_glass_wiper wipers[VIRGA_GLASS_MAX_WIPERS];

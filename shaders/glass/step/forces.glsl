@@ -5,7 +5,8 @@
 // Gravity minus the pane's own acceleration: tick.force is that in the pane's frame, and a rotating pane adds -w x (w x
 // r). Bump maps (Chen and Zhang, equation 14): the bump with the normal N carries the part of F that presses on it, so
 // F - (N . F) N is left. Air: the flow along the pane drags with half its density times its speed squared on the drop's
-// cross-section; tick.air_drag holds the constants.
+// cross-section; tick.air_drag holds the constants. Air that meets the pane head-on spreads from its middle as before a
+// stagnation point, in proportion to the distance from it.
 vec2 force_on_drop(vec2 point, float mass, float a, uint packed_cell)
 {
     const Frame frame = frame_at(point);
@@ -15,7 +16,9 @@ vec2 force_on_drop(vec2 point, float mass, float a, uint packed_cell)
     const vec3 n = cell_normal(packed_cell);
     force -= dot(n, force) * n;
     const vec3 air = to_vec(tick.air);
-    const vec2 along = vec2(dot(air, frame.along_u), dot(air, frame.along_v)) * tick.air_share;
+    const vec2 from_middle = point - 0.5 * vec2(tick.pane.width_m, tick.pane.height_m);
+    const vec2 spread = vec2(tick.air_outward[0], tick.air_outward[1]) * from_middle;
+    const vec2 along = (vec2(dot(air, frame.along_u), dot(air, frame.along_v)) + spread) * tick.air_share;
     return force.xy + along * (length(along) * tick.air_drag * a * a);
 }
 
