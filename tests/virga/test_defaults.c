@@ -199,6 +199,7 @@ static void panes(void **state)
     SAME(evaporation_mm_h);
     SAME(mist_max_mm);
     SAME(air_share);
+    SAME(air_outward);
     SAME(particle_radius_mm);
     SAME(penalty);
     SAME(particle_band);

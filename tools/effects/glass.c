@@ -60,8 +60,8 @@ static const scene_keyword pane_shapes[] = {
 static const scene_keyword pane_follows[] = {{"world", SCENE_PANE_WORLD}, {"camera", SCENE_PANE_CAMERA}, {NULL, 0}};
 static const scene_keyword pane_motions[] = {
     {"path", SCENE_PANE_MOTION_PATH}, {"given", SCENE_PANE_MOTION_GIVEN}, {NULL, 0}};
-static const scene_keyword pane_kinds[] = {{"paper", 0}, {"clean", 1}, {"dirty", 2}, {"coated", 3},
-                                           {"metal", 4}, {"leaf", 5},  {NULL, 0}};
+const scene_keyword scene_pane_kinds[] = {{"paper", 0}, {"clean", 1}, {"dirty", 2}, {"coated", 3},
+                                          {"metal", 4}, {"leaf", 5},  {NULL, 0}};
 static const scene_keyword pane_densities[] = {{"goto", 0},   {"blinn", 1},     {"murakami", 2},
                                                {"wyvill", 3}, {"nishimura", 4}, {NULL, 0}};
 static const scene_keyword pane_blends[] = {{"sum", 0}, {"weighted", 1}, {NULL, 0}};
@@ -92,7 +92,7 @@ static const scene_row pane_rows[] = {
            "of the pane, where its motion is given"),
     NUMBER(scene_pane, shelter, 0, 1, "0", LIVE, "share of the rain that does not reach it"),
     NUMBER(scene_pane, frame_m, 0, 2, "0", RESTARTS, "width of a dark frame around it; 0: none"),
-    CHOICE(scene_pane, kind, pane_kinds, "paper", LIVE,
+    CHOICE(scene_pane, kind, scene_pane_kinds, "paper", LIVE,
            "what drops sit on: how far they spread and how well they stick"),
     OPTIONAL_NUMBER(scene_pane, advancing_deg, 5, 175, LIVE,
                     "contact angle at which a drop's front moves on; else its kind's"),
@@ -116,6 +116,8 @@ static const scene_row pane_rows[] = {
     NUMBER(scene_pane, evaporation_mm_h, 0, 100, "0.5", LIVE, "from what is wet"),
     NUMBER(scene_pane, mist_max_mm, 0, 1, "0.6", LIVE, "smaller drops join the film as mist"),
     NUMBER(scene_pane, air_share, 0, 2, "0.4", LIVE, "share of the air flow along the pane that pulls at drops"),
+    NUMBER(scene_pane, air_outward, 0, 2, "0", LIVE,
+           "share of the air that meets it head-on and flows from its middle outwards, at its edges"),
     LIST(scene_pane, wipers, wiper_count, &wiper_group, 0, SCENE_FILE_MAX_WIPERS, "[]", "blades that sweep the pane"),
     NUMBER(scene_pane, particle_radius_mm, 0.2, 5, "1.5", LIVE, "radius of the particles beside blades"),
     NUMBER(scene_pane, penalty, 0, 1, "0.1", LIVE, "how hard particles push each other apart"),
@@ -160,6 +162,16 @@ static const scene_row pane_rows[] = {
     OPTIONAL_GROUP(scene_pane, bumps, &bumps_group, RESTARTS, "a height map of the surface, which steers drops"),
 };
 static const scene_group pane_group = SCENE_GROUP(scene_pane, pane_rows);
+
+const scene_group *scene_pane_group(void)
+{
+    return &pane_group;
+}
+
+const scene_group *scene_wiper_group(void)
+{
+    return &wiper_group;
+}
 
 /* The section has one key: the list. */
 static const scene_row glass_section[] = {
@@ -228,6 +240,25 @@ static bool check_pane(const scene_file *scene, const scene_pane *pane, uint32_t
     return true;
 }
 
+/* The drops on the lens are a pane, too, with a name. */
+static bool check_beside_front(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_glass *glass = scene_glass_of(scene);
+    char key[64];
+    if (!glass_has_front(scene))
+        return true;
+    if (glass->pane_count >= SCENE_FILE_MAX_PANES)
+        return scene_file_refuse(scene, "glass", error, error_size, "expected at most %d panes beside lens.drops",
+                                 SCENE_FILE_MAX_PANES - 1);
+    for (uint32_t i = 0; i < glass->pane_count; i++) {
+        snprintf(key, sizeof key, "glass.%u.name", i);
+        if (!strcmp(glass->panes[i].name, "lens"))
+            return scene_file_refuse(scene, key, error, error_size,
+                                     "expected another name than 'lens', that of the drops on the lens");
+    }
+    return true;
+}
+
 static bool check_panes(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_glass *glass = scene_glass_of(scene);
@@ -243,7 +274,7 @@ static bool check_panes(const scene_file *scene, char *error, size_t error_size)
         if (!check_pane(scene, &glass->panes[i], i, error, error_size))
             return false;
     }
-    return true;
+    return check_beside_front(scene, error, error_size);
 }
 
 const char *scene_pane_shape_name(uint32_t shape)
@@ -253,7 +284,7 @@ const char *scene_pane_shape_name(uint32_t shape)
 
 const char *scene_pane_kind_name(uint32_t kind)
 {
-    return scene_keyword_name(pane_kinds, kind);
+    return scene_keyword_name(scene_pane_kinds, kind);
 }
 
 const char *scene_pane_style_name(uint32_t style)
@@ -280,46 +311,62 @@ double scene_wiper_angle_deg(const scene_wiper *wiper, double time_s)
 
 static bool is_used(const scene_file *scene)
 {
-    return scene_glass_of(scene)->pane_count > 0;
+    return scene_glass_of(scene)->pane_count > 0 || glass_has_front(scene);
+}
+
+/* The drops on the lens are behind the panes of the list: nearest to the camera, so they are drawn last. */
+static uint32_t count_all(const scene_file *scene)
+{
+    return scene_glass_of(scene)->pane_count + glass_has_front(scene);
+}
+
+static const scene_pane *pane_at(const scene_file *scene, const glass_state *g, uint32_t index)
+{
+    const scene_glass *glass = scene_glass_of(scene);
+    return index < glass->pane_count ? &glass->panes[index] : &g->front;
+}
+
+static void fill_def(const scene_pane *pane, bool maps, virga_glass_def *to)
+{
+    *to = virga_default_glass_def();
+    to->width_m = (float)pane->width_m;
+    to->height_m = (float)pane->height_m;
+    to->cell_m = (float)pane->cell_m;
+    to->max_drops = pane->max_drops;
+    to->affinity_size_m = (float)pane->affinity_size_m;
+    to->max_texels = pane->max_texels;
+    to->texture_columns = pane->texture_columns;
+    to->texture_rows = pane->texture_rows;
+    to->texture_texels = pane->texture_texels;
+    to->height_map = maps;
 }
 
 static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
 {
     glass_state *g = state;
-    const scene_glass *from = scene_glass_of(s->scene);
-    g->defs = calloc(from->pane_count + 1, sizeof *g->defs);
-    g->panes = calloc(from->pane_count + 1, sizeof *g->panes);
-    g->placed = calloc(from->pane_count + 1, sizeof *g->placed);
+    const uint32_t count = count_all(s->scene);
+    g->defs = calloc(count + 1, sizeof *g->defs);
+    g->panes = calloc(count + 1, sizeof *g->panes);
+    g->placed = calloc(count + 1, sizeof *g->placed);
     if (!g->defs || !g->panes || !g->placed)
         return host_fail(error, error_size, "no memory for panes");
-    for (uint32_t i = 0; i < from->pane_count; i++) {
-        const scene_pane *pane = &from->panes[i];
-        virga_glass_def *to = &g->defs[i];
-        *to = virga_default_glass_def();
-        to->width_m = (float)pane->width_m;
-        to->height_m = (float)pane->height_m;
-        to->cell_m = (float)pane->cell_m;
-        to->max_drops = pane->max_drops;
-        to->affinity_size_m = (float)pane->affinity_size_m;
-        to->max_texels = pane->max_texels;
-        to->texture_columns = pane->texture_columns;
-        to->texture_rows = pane->texture_rows;
-        to->texture_texels = pane->texture_texels;
-        to->height_map = s->options.debug_maps;
-    }
+    glass_fill_front(s->scene, &g->front, &g->front_wiper);
+    for (uint32_t i = 0; i < count; i++)
+        fill_def(pane_at(s->scene, g, i), s->options.debug_maps, &g->defs[i]);
     def->panes = g->defs;
-    def->pane_count = from->pane_count;
-    def->rain.max_panes = from->pane_count < MAX_CATCHING ? from->pane_count : MAX_CATCHING;
+    def->pane_count = count;
+    def->rain.max_panes = count < MAX_CATCHING ? count : MAX_CATCHING;
     return true;
 }
 
 static bool open_state(shot *s, void *state, char *error, size_t error_size)
 {
     glass_state *g = state;
-    const scene_glass *from = scene_glass_of(s->scene);
-    for (; g->count < from->pane_count; g->count++) {
+    const uint32_t count = count_all(s->scene);
+    for (; g->count < count; g->count++) {
         glass_pane *pane = &g->panes[g->count];
-        pane->from = &from->panes[g->count];
+        pane->from = pane_at(s->scene, g, g->count);
+        pane->round = pane->from == &g->front;
         pane->glass = virga_scene_glass(s->simulation, g->count);
         if (!glass_create_shape(s, pane, g->count, error, error_size) || !glass_create_mesh(s, pane, error, error_size))
             return false;
@@ -330,7 +377,7 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
 static void close_state(shot *s, void *state)
 {
     glass_state *g = state;
-    for (uint32_t i = 0; g->panes && i < scene_glass_of(s->scene)->pane_count; i++) {
+    for (uint32_t i = 0; g->panes && i < count_all(s->scene); i++) {
         host_buffer_destroy(&s->device, &g->panes[i].read.buffer);
         host_mesh_destroy(&s->device, &g->panes[i].mesh);
         free(g->panes[i].positions);

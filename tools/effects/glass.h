@@ -2,7 +2,7 @@
 #ifndef VIRGA_EFFECTS_GLASS_H
 #define VIRGA_EFFECTS_GLASS_H
 
-#include "scene_file.h"
+#include "scene_schema.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,7 +69,7 @@ typedef struct scene_pane {
     double *advancing_deg, *receding_deg, *kinetic_hold, *affinity, *film_um, *tail_max_radius_mm;
     bool *opaque; /* NULL: only metal and leaves are opaque */
     double drag, meander, path_ease, path_dry_s, merge_distance;
-    double tail_spacing_m, tail_lifetime_s, film_break_s, evaporation_mm_h, mist_max_mm, air_share;
+    double tail_spacing_m, tail_lifetime_s, film_break_s, evaporation_mm_h, mist_max_mm, air_share, air_outward;
     scene_wiper *wipers;
     uint32_t wiper_count;
     double particle_radius_mm, penalty, particle_band, hold_back_mm;
@@ -100,6 +100,9 @@ typedef struct scene_glass {
 
 /* The panes of a scene. */
 scene_glass *scene_glass_of(const scene_file *scene);
+
+/* The keywords of virga_glass_kind. NULL after the last. */
+extern const scene_keyword scene_pane_kinds[];
 
 /* The keyword of each value in scene files. */
 const char *scene_pane_shape_name(uint32_t shape);

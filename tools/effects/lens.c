@@ -1,5 +1,10 @@
-/* lens.c - `virga bench lens`. The lens is the camera's: its keys are in tools/io, tools/virga/shot draws with it. */
+/* lens.c - the section `lens`, drops on the camera's lens, and `virga bench lens`. The drops are a pane, see
+ * glass/front.c. The lens itself is the camera's: its keys are in tools/io, tools/virga/shot draws with it. */
+#include "lens.h"
+
 #include "effect.h"
+#include "glass.h"
+#include "scene_rows.h"
 
 #include "bench/bench.h"
 #include "options.h"
@@ -13,6 +18,60 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+
+/* ---- keys of scene files -------------------------------------------------------------------------------------- */
+
+/* Ranges of what the library has are its own: virga/glass.h. */
+static const scene_row lens_rows[] = {
+    SWITCH(scene_lens, drops, "false", RESTARTS, "the camera's front element gets wet"),
+    NUMBER(scene_lens, away_mm, 1, 500, "35", LIVE, "from the lens's opening to the element"),
+    NUMBER(scene_lens, diameter_mm, 10, 300, "70", RESTARTS, "of the element; corners that look past it have no drops"),
+    CHOICE(scene_lens, kind, scene_pane_kinds, "dirty", LIVE,
+           "what drops sit on: coated is a coating that repels water"),
+    OPTIONAL_NUMBER(scene_lens, advancing_deg, 5, 175, LIVE,
+                    "contact angle at which a drop's front moves on; else its kind's"),
+    OPTIONAL_NUMBER(scene_lens, receding_deg, 1, 175, LIVE, "contact angle at which its rear lets go; else its kind's"),
+    NUMBER(scene_lens, shelter, 0, 1, "0", LIVE, "share of the rain that a hood keeps off"),
+    NUMBER(scene_lens, air_share, 0, 2, "0.8", LIVE, "share of the air flow along the element that pulls at drops"),
+    NUMBER(scene_lens, air_outward, 0, 2, "0.64", LIVE,
+           "share of the air that meets it head-on and flows from its middle outwards, at its rim"),
+    NUMBER(scene_lens, evaporation_mm_h, 0, 100, "0.5", LIVE, "from what is wet"),
+    NUMBER(scene_lens, mist_max_mm, 0, 1, "0.6", LIVE, "smaller drops join the film, which is not seen"),
+    NUMBER(scene_lens, veil, 0, 1, "0", LIVE, "share of the opening that mist covers: veiling glare"),
+    NUMBER(scene_lens, wipe_every_s, 0, 3600, "0", LIVE, "a cloth wipes the element so often; 0: never"),
+    NUMBER(scene_lens, wipe_s, 0.1, 60, "0.3", LIVE, "from one side to the other, and as long back"),
+    NUMBER(scene_lens, cell_m, 0.0005, 0.01, "0.001", RESTARTS, "side of a cell, of which one drop has one"),
+    WHOLE(scene_lens, max_drops, 256, 262144, "2048", RESTARTS, "500 bytes each"),
+};
+static const scene_group lens_group = SCENE_GROUP(scene_lens, lens_rows);
+static const scene_row lens_section[] = {SECTION_GROUP("lens", &lens_group, "drops on the camera's lens")};
+
+TOOL_SECTION_OF(lens)
+
+static bool check_lens(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_lens *lens = scene_lens_of(scene);
+    if (lens->veil > 0 && !lens->drops)
+        return scene_file_refuse(scene, "lens.veil", error, error_size, "expected drops: true beside it");
+    if (lens->wipe_every_s > 0 && lens->wipe_every_s < 2 * lens->wipe_s)
+        return scene_file_refuse(scene, "lens.wipe_every_s", error, error_size,
+                                 "expected 0, or at least twice wipe_s (%g), got %g", lens->wipe_s, lens->wipe_every_s);
+    if (lens->advancing_deg && lens->receding_deg && *lens->receding_deg > *lens->advancing_deg)
+        return scene_file_refuse(scene, "lens.receding_deg", error, error_size,
+                                 "expected at most advancing_deg (%g), got %g", *lens->advancing_deg,
+                                 *lens->receding_deg);
+    return true;
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_lens *lens = scene_lens_of(scene);
+    if (lens->drops)
+        printf("  lens drops   %g mm wide, %g mm before its opening, %s\n", lens->diameter_mm, lens->away_mm,
+               scene_pane_kind_name(lens->kind));
+}
+
+/* ---- virga bench ---------------------------------------------------------------------------------------------- */
 
 #define DROPS    1000 /* on the layer, as in the paper's picture */
 #define ENOUGH_S 6.0  /* fewer runs are enough after it */
@@ -236,4 +295,10 @@ static const tool_bench lens_bench = {
     .run = run,
 };
 
-const tool_effect lens_effect = {.name = "lens", .bench = &lens_bench};
+const tool_effect lens_effect = {
+    .name = "lens",
+    .title = "Drops on the lens",
+    .scene = {.group = SCENE_GROUP(scene_lens, lens_section), .check = check_lens},
+    .print = print,
+    .bench = &lens_bench,
+};

@@ -11,6 +11,7 @@ typedef struct glass_pane {
     virga_glass_settings settings;
     float *positions; /* columns x rows points in its own frame, see virga_glass_shape */
     uint32_t columns, rows;
+    bool round;           /* its glass is the ellipse in it */
     virga_scene_pane now; /* at the frame that the simulation stands at */
     host_mesh mesh;       /* its frame and its wipers; no vertices: neither */
     shot_read read;
@@ -21,7 +22,22 @@ typedef struct glass_state {
     glass_pane *panes;
     virga_scene_pane *placed; /* as the newest step has them */
     uint32_t count;
+    scene_pane front; /* the drops on the lens, behind the scene's panes where it has them */
+    scene_wiper front_wiper;
 } glass_state;
+
+/* ---- glass.c: the rows of panes */
+
+const scene_group *scene_pane_group(void);
+const scene_group *scene_wiper_group(void);
+
+/* ---- front.c: the drops on the camera's lens */
+
+/* Whether a scene has them. */
+bool glass_has_front(const scene_file *scene);
+
+/* Makes their pane from the section `lens`. It refers to `wiper` and to values of the scene. */
+void glass_fill_front(const scene_file *scene, scene_pane *to, scene_wiper *wiper);
 
 /* ---- settings.c */
 

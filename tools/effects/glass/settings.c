@@ -66,6 +66,7 @@ static void fill_motion(const scene_pane *from, virga_glass_settings *to)
     to->evaporation_mm_h = (float)from->evaporation_mm_h;
     to->mist_max_mm = (float)from->mist_max_mm;
     to->air_share = (float)from->air_share;
+    to->air_outward = (float)from->air_outward;
     to->particle_radius_mm = (float)from->particle_radius_mm;
     to->penalty = (float)from->penalty;
     to->particle_band = (float)from->particle_band;
@@ -99,7 +100,8 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
 
 bool glass_apply(shot *s, void *state, double time_s, char *error, size_t error_size)
 {
-    const glass_state *g = state;
+    glass_state *g = state;
+    glass_fill_front(s->scene, &g->front, &g->front_wiper);
     for (uint32_t i = 0; i < g->count; i++) {
         glass_pane *pane = &g->panes[i];
         virga_glass_settings *to = &pane->settings;
@@ -118,21 +120,32 @@ bool glass_apply(shot *s, void *state, double time_s, char *error, size_t error_
 }
 
 /* One of the two angles may be the scene's and the other its kind's. */
+static bool check_angles(const scene_file *scene, const scene_pane *pane, const char *where, char *error,
+                         size_t error_size)
+{
+    virga_glass_settings settings = virga_default_glass_settings();
+    char key[64];
+    fill_kind(pane, &settings);
+    if (settings.receding_deg <= settings.advancing_deg)
+        return true;
+    snprintf(key, sizeof key, "%s.%s", where, pane->receding_deg ? "receding_deg" : "advancing_deg");
+    return scene_file_refuse(scene, key, error, error_size, "expected %s (%g), got %g",
+                             pane->receding_deg ? "at most the advancing angle" : "at least the receding angle",
+                             (double)(pane->receding_deg ? settings.advancing_deg : settings.receding_deg),
+                             (double)(pane->receding_deg ? settings.receding_deg : settings.advancing_deg));
+}
+
 bool glass_check(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_glass *glass = scene_glass_of(scene);
+    scene_pane front;
+    scene_wiper wiper;
     for (uint32_t i = 0; i < glass->pane_count; i++) {
-        const scene_pane *pane = &glass->panes[i];
-        virga_glass_settings settings = virga_default_glass_settings();
-        char key[64];
-        fill_kind(pane, &settings);
-        if (settings.receding_deg <= settings.advancing_deg)
-            continue;
-        snprintf(key, sizeof key, "glass.%u.%s", i, pane->receding_deg ? "receding_deg" : "advancing_deg");
-        return scene_file_refuse(scene, key, error, error_size, "expected %s (%g), got %g",
-                                 pane->receding_deg ? "at most the advancing angle" : "at least the receding angle",
-                                 (double)(pane->receding_deg ? settings.advancing_deg : settings.receding_deg),
-                                 (double)(pane->receding_deg ? settings.receding_deg : settings.advancing_deg));
+        char where[32];
+        snprintf(where, sizeof where, "glass.%u", i);
+        if (!check_angles(scene, &glass->panes[i], where, error, error_size))
+            return false;
     }
-    return true;
+    glass_fill_front(scene, &front, &wiper);
+    return check_angles(scene, &front, "lens", error, error_size);
 }

@@ -32,12 +32,13 @@ static bool read_picture(const scene_file *scene, const char *key, const char *f
 static bool read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, float **bumps_m,
                        char *error, size_t error_size)
 {
-    const scene_bumps *from = &scene_glass_of(scene)->panes[pane].bumps;
+    const scene_glass *glass = scene_glass_of(scene);
     char key[64];
     uint8_t *numbers;
     *bumps_m = NULL;
-    if (!from->file)
+    if (pane >= glass->pane_count || !glass->panes[pane].bumps.file)
         return true;
+    const scene_bumps *from = &glass->panes[pane].bumps;
     snprintf(key, sizeof key, "glass.%u.bumps.file", pane);
     if (!read_picture(scene, key, from->file, columns, rows, &numbers, error, error_size))
         return false;
@@ -56,17 +57,18 @@ static bool read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns,
 {
     char key[64];
     uint8_t *numbers;
+    const scene_glass *glass = scene_glass_of(scene);
     *mask = NULL;
-    if (!scene_glass_of(scene)->panes[pane].mask)
+    if (pane >= glass->pane_count || !glass->panes[pane].mask)
         return true;
     snprintf(key, sizeof key, "glass.%u.mask", pane);
-    if (!read_picture(scene, key, scene_glass_of(scene)->panes[pane].mask, columns, rows, &numbers, error, error_size))
+    if (!read_picture(scene, key, glass->panes[pane].mask, columns, rows, &numbers, error, error_size))
         return false;
     *mask = malloc((size_t)*columns * *rows);
     for (uint32_t row = 0; *mask && row < *rows; row++)
         memcpy(*mask + (size_t)row * *columns, numbers + (size_t)(*rows - 1 - row) * *columns, *columns);
     free(numbers);
-    return *mask || host_fail(error, error_size, "no memory for %s", scene_glass_of(scene)->panes[pane].mask);
+    return *mask || host_fail(error, error_size, "no memory for %s", glass->panes[pane].mask);
 }
 
 static bool check_pane(const scene_file *scene, uint32_t pane, char *error, size_t error_size)
@@ -160,7 +162,7 @@ static bool shape_of_mesh(shot *s, glass_pane *pane, uint32_t index, uint8_t *ma
                              from->mesh, from->width_m, from->height_m);
 }
 
-/* Gives the library the shape; `found` is the mask of a mesh. */
+/* Gives the library the shape; `found` is the mask of a mesh, or of round glass. */
 static bool set_shape(shot *s, glass_pane *pane, uint32_t index, const uint8_t *found, char *error, size_t error_size)
 {
     virga_glass_shape shape = virga_default_glass_shape();
@@ -196,19 +198,30 @@ static bool set_shape(shot *s, glass_pane *pane, uint32_t index, const uint8_t *
     return shot_ok(s, result, "shaping a pane", error, error_size);
 }
 
+static void cut_round(uint8_t *mask, uint32_t points)
+{
+    for (uint32_t i = 0; i < points * points; i++) {
+        const double x = 2.0 * (i % points) / (points - 1) - 1, y = 2.0 * (double)(i / points) / (points - 1) - 1;
+        mask[i] = x * x + y * y <= 1;
+    }
+}
+
 bool glass_create_shape(shot *s, glass_pane *pane, uint32_t index, char *error, size_t error_size)
 {
     const scene_pane *from = pane->from;
     const bool bent = from->shape == SCENE_PANE_WINDSHIELD, meshed = from->shape == SCENE_PANE_MESH;
     uint8_t *mask = NULL;
-    pane->columns = pane->rows = meshed ? MESH_POINTS : SHAPE_POINTS;
+    const bool masked = meshed || pane->round;
+    pane->columns = pane->rows = masked ? MESH_POINTS : SHAPE_POINTS;
     pane->positions = calloc((size_t)pane->columns * pane->rows, 3 * sizeof *pane->positions);
-    if (meshed)
+    if (masked)
         mask = malloc((size_t)pane->columns * pane->rows);
-    if (!pane->positions || (meshed && !mask)) {
+    if (!pane->positions || (masked && !mask)) {
         free(mask);
         return host_fail(error, error_size, "no memory for a pane");
     }
+    if (pane->round)
+        cut_round(mask, pane->columns);
     if (!meshed)
         virga_glass_fill_windshield((float)from->width_m, (float)from->height_m, bent ? (float)from->rake_deg : 0,
                                     bent ? (float)from->bend_m : 0, pane->columns, pane->rows, pane->positions);
