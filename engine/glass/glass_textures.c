@@ -13,6 +13,8 @@
 #define LEVELS_NUMERATOR   85u
 #define LEVELS_DENOMINATOR 64u
 
+#define STREAK_MAX_DEG 40.0f /* a little below the angle of total reflection in water */
+
 uint32_t glass_texture_texels(uint32_t asked)
 {
     uint32_t texels = 8;
@@ -106,6 +108,10 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
     look->texture_rows = glass->def.texture_rows;
     look->texture_texels = glass->def.texture_texels;
     look->veil = s->veil;
+    look->starburst = s->starburst;
+    look->starburst_rad = fminf(s->receding_deg, STREAK_MAX_DEG) * (float)(3.14159265358979 / 180);
+    look->starburst_turn = s->starburst_deg * (float)(3.14159265358979 / 180);
+    look->starburst_rays = s->starburst_rays;
     look->hemispheres = s->texture_shape == VIRGA_GLASS_TEXTURE_HEMISPHERE;
     look->quads_offset = look->bounds_offset + 2 * look->max_tiles;
     if (glass_is_front(s))
@@ -136,7 +142,7 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
                        (texels + VIRGA_GLASS_TEXTURE_GROUP - 1) / VIRGA_GLASS_TEXTURE_GROUP);
         glass->base.journal.doing |= GLASS_DID_TEXTURES;
     }
-    if (glass_is_front(&glass->settings)) /* also without a drop: the veil */
+    if (glass_is_front(&glass->settings)) /* also without a drop: veil and streaks */
         virga_dispatch(context, cmd, picture->front_quads, glass->def.max_drops / VIRGA_GLASS_GROUP);
     else
         virga_dispatch_indirect(context, cmd, picture->drop_quads, glass->state->buffer,

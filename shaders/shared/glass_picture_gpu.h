@@ -90,9 +90,13 @@ struct virga_glass_picture_gpu {
     uint hemispheres;     /* 1: drops are hemispheres (Sato et al.); 0: caps, as the height map has them */
     uint first_texture;   /* made anew for this view: the first of them */
     uint textures;        /* and their number, in turn */
-    /* start of the quads' vertex indices, three for each drop and three more; the quads follow */
+    /* start of the quads' vertex indices, three for each drop and six more; the quads follow */
     uint quads_offset;
-    float veil; /* (front) share of the opening that mist covers */
+    float veil;           /* (front) share of the opening that mist covers */
+    float starburst;      /* (front) share of it that streaks of film cover */
+    float starburst_rad;  /* angle at which a fresh streak meets the glass: the steepest of them */
+    float starburst_turn; /* rad, from u towards v: direction of the first ray */
+    uint starburst_rays;  /* directions; a ray on both sides for each */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y

@@ -160,6 +160,140 @@ static void a_veil_covers_its_share_evenly(void **state)
     shot_close(&s);
 }
 
+/* ---- starbursts */
+
+/* A ray that leaves film inclined by `b` along the camera's axis: its angle to the axis before the pane, from sin b = n
+ * sin i in the film and n sin(b - i) in the air. */
+static double angle_before(double b)
+{
+    return asin(1.333 * sin(b - asin(sin(b) / 1.333)));
+}
+
+/* What a lamp on the axis gives to the pixels of such rays: what is not reflected, times the size of its picture there
+ * along the ray, the change of tan(angle_before) with that of the ray that leaves. */
+static double light_before(double b)
+{
+    const double i = asin(sin(b) / 1.333), w = angle_before(b), one = 1.333 * cos(i), other = 1.333 * cos(b);
+    const double s = (one - cos(b)) / (one + cos(b)), p = (cos(i) - other) / (cos(i) + other);
+    const double size = cos(b - i) * cos(b) / (cos(i) * cos(w)) / (cos(w) * cos(w));
+    return (1 - 0.5 * (s * s + p * p)) * size;
+}
+
+/* Share of the light of streaks that is inclined by less than b; they meet the glass at angles from 0 to `full`. */
+static double within(double b, double full)
+{
+    return (b + sin(b) * log(tan(full / 2) / tan(b / 2))) / full;
+}
+
+/* The same by the sum over 20,000 streaks: min(sin b / sin t, 1). */
+static double within_by_sum(double b, double full)
+{
+    double sum = 0;
+    for (int i = 0; i < 20000; i++)
+        sum += fmin(sin(b) / sin((i + 0.5) / 20000 * full), 1) / 20000;
+    return sum;
+}
+
+static void streaks_keep_an_even_scene_even(void **state)
+{
+    (void)state;
+    shot s;
+    open_front(&s);
+    surround(&s);
+    s.settings.advancing_deg = 20;
+    s.settings.receding_deg = 15;
+    s.settings.veil = 0.25f;
+    s.settings.starburst = 0.4f;
+    s.settings.starburst_rays = 8;
+    shot_forget(&s);
+    const float *pixels = draw_front(&s, (opening){0.004, 0});
+    for (int p = 0; p < WIDTH * HEIGHT; p++) {
+        const double alpha = (double)pixels[4 * p + 3], light = (double)pixels[4 * p];
+        if (!(fabs(alpha - (1 - 0.75 * 0.6)) < 1e-4) || !(fabs(light - alpha) < 1e-3))
+            fail_msg("pixel %d: %g of %g", p, light, alpha);
+    }
+    shot_close(&s);
+}
+
+#define STREAKED_DEG 35.0
+#define LAMP         2 /* half its width, px */
+
+/* A lamp in the picture's middle, and nothing else. */
+static void put_lamp(shot *s)
+{
+    float *pixels = calloc(4ull * WIDTH * HEIGHT, sizeof *pixels);
+    REQUIRE(pixels);
+    for (int y = HEIGHT / 2 - LAMP; y < HEIGHT / 2 + LAMP; y++)
+        for (int x = WIDTH / 2 - LAMP; x < WIDTH / 2 + LAMP; x++)
+            for (int c = 0; c < 4; c++)
+                pixels[4 * (y * WIDTH + x) + c] = c == 3 ? 1 : 100;
+    shot_plate(s, pixels);
+    free(pixels);
+    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
+}
+
+/* Share of the lamp's light that comes to between two distances (px) from its middle, from all of its pixels. */
+static double on_rays(double from_px, double to_px, double full)
+{
+    double sum = 0;
+    for (int i = 0; i < 2000; i++) {
+        const double low = full * i / 2000, high = full * (i + 1) / 2000, middle = 0.5 * (low + high);
+        const double at = per_tangent * tan(angle_before(middle));
+        const double light = (within(high, full) - (i ? within(low, full) : 0)) * light_before(middle);
+        for (int k = 0; k < 6 * 4 * LAMP * LAMP; k++) {
+            const double x = k / 6 % (2 * LAMP) + 0.5 - LAMP, y = (double)(k / 6 / (2 * LAMP)) + 0.5 - LAMP;
+            const double r = hypot(x + at * cos(k % 6 * PI / 3), y + at * sin(k % 6 * PI / 3));
+            sum += r >= from_px && r < to_px ? light / (6 * 4 * LAMP * LAMP) : 0;
+        }
+    }
+    return sum;
+}
+
+/* Of the light between two distances from the lamp: all of it as a share of the lamp's, and the part near the rays. */
+static double sum_ring(const float *pixels, double from_px, double to_px, bool near_rays)
+{
+    double sum = 0;
+    for (int p = 0; p < WIDTH * HEIGHT; p++) {
+        const double x = p % WIDTH + 0.5 - 0.5 * WIDTH, y = (double)(p / WIDTH) + 0.5 - 0.5 * HEIGHT, r = hypot(x, y);
+        const double turn = remainder(atan2(y, x), PI / 3); /* six rays, the first along u */
+        if (r >= from_px && r < to_px && (!near_rays || fabs(r * sin(turn)) < 3 * LAMP))
+            sum += (double)pixels[4 * p];
+    }
+    return sum / (4 * LAMP * LAMP * 100.0);
+}
+
+/* The light on the rays by distance, and none beside them. To 6 %, and all of it to 2.5 %: a small picture's copies are
+ * sampled once a pixel, where the lamp's edges are between two of their texels. */
+static void a_starburst_has_the_light_of_its_streaks(void **state)
+{
+    (void)state;
+    shot s;
+    const double full = STREAKED_DEG * PI / 180, share = 0.4, ends[4] = {6, 14, 22, 36};
+    for (int i = 1; i < 10; i++)
+        assert_true(fabs(within(full * i / 10, full) - within_by_sum(full * i / 10, full)) < 1e-4);
+    open_front(&s);
+    put_lamp(&s);
+    s.settings.advancing_deg = 60;
+    s.settings.receding_deg = (float)STREAKED_DEG;
+    s.settings.starburst = (float)share;
+    s.settings.starburst_deg = 0;
+    shot_forget(&s);
+    const float *pixels = draw_front(&s, (opening){0.004, 0});
+    for (int i = 0; i + 1 < 4; i++) {
+        const double found = sum_ring(pixels, ends[i], ends[i + 1], false) / share;
+        const double expected = on_rays(ends[i], ends[i + 1], full);
+        print_message("from %g to %g px: %.4f, expected %.4f\n", ends[i], ends[i + 1], found, expected);
+        assert_true(fabs(found / expected - 1) < 0.06);
+        assert_true(sum_ring(pixels, ends[i], ends[i + 1], true) > 0.97 * found * share);
+    }
+    const double all = sum_ring(pixels, 0, WIDTH, false) / share, expected = on_rays(0, WIDTH, full);
+    print_message("all: %.4f, expected %.4f\n", all, expected);
+    assert_true(fabs(all / expected - 1) < 0.025);
+    for (int p = 0; p < WIDTH * HEIGHT; p++)
+        assert_true(fabs((double)pixels[4 * p + 3] - share) < 1e-4);
+    shot_close(&s);
+}
+
 static void without_drops_nothing_is_drawn(void **state)
 {
     (void)state;
@@ -242,9 +376,10 @@ static void it_is_the_mean_of_pinholes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_share_is_that_of_two_discs), cmocka_unit_test(an_even_scene_stays_even),
-        cmocka_unit_test(a_veil_covers_its_share_evenly), cmocka_unit_test(without_drops_nothing_is_drawn),
-        cmocka_unit_test(it_is_the_mean_of_pinholes),
+        cmocka_unit_test(the_share_is_that_of_two_discs),  cmocka_unit_test(an_even_scene_stays_even),
+        cmocka_unit_test(a_veil_covers_its_share_evenly),  cmocka_unit_test(without_drops_nothing_is_drawn),
+        cmocka_unit_test(it_is_the_mean_of_pinholes),      cmocka_unit_test(a_starburst_has_the_light_of_its_streaks),
+        cmocka_unit_test(streaks_keep_an_even_scene_even),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

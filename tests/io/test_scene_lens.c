@@ -104,6 +104,7 @@ static const struct {
     {"lens: {drops: true, away_mm: 0}\n", "lens.away_mm: expected a number from 1 to 500, got '0'"},
     {"lens: {drops: true, diameter_mm: 5}\n", "lens.diameter_mm: expected a number from 10 to 300, got '5'"},
     {"lens: {veil: 0.1}\n", "s.yaml:5: lens.veil: expected drops: true beside it"},
+    {"lens: {starburst: 0.1}\n", "s.yaml:5: lens.starburst: expected drops: true beside it"},
     {"lens: {drops: true, wipe_every_s: 0.5}\n",
      "s.yaml:5: lens.wipe_every_s: expected 0, or at least twice wipe_s (0.3), got 0.5"},
     {"lens: {drops: true, advancing_deg: 40, receding_deg: 50}\n",

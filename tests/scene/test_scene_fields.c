@@ -276,6 +276,9 @@ static const field glass_fields[] = {
     F(textured_px, 0, 64),
     F(textures_per_frame, 0, 1024),
     F(veil, 0, 1),
+    F(starburst, 0, 1),
+    F(starburst_rays, 1, 8),
+    F(starburst_deg, -360, 360),
     F(air_outward, 0, 2),
     LIGHTS(virga_glass_settings),
 };

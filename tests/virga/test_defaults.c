@@ -220,6 +220,9 @@ static void panes(void **state)
     SAME(textures_per_frame);
     SAME(still_behind);
     SAME(veil);
+    SAME(starburst);
+    SAME(starburst_rays);
+    SAME(starburst_deg);
     SAME(paper_shift);
     SAME(thickness_mm);
     SAME(tint[0]);

@@ -85,7 +85,8 @@ typedef struct scene_pane {
     uint32_t texture_shape; /* virga_glass_texture_shape */
     uint32_t textures_per_frame;
     bool still_behind;
-    double veil;
+    double veil, starburst, starburst_deg;
+    uint32_t starburst_rays;
     double cell_m, affinity_size_m;
     uint32_t max_drops, max_texels;
     uint32_t texture_columns, texture_rows, texture_texels;

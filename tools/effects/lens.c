@@ -38,6 +38,10 @@ static const scene_row lens_rows[] = {
     NUMBER(scene_lens, evaporation_mm_h, 0, 100, "0.5", LIVE, "from what is wet"),
     NUMBER(scene_lens, mist_max_mm, 0, 1, "0.6", LIVE, "smaller drops join the film, which is not seen"),
     NUMBER(scene_lens, veil, 0, 1, "0", LIVE, "share of the opening that mist covers: veiling glare"),
+    NUMBER(scene_lens, starburst, 0, 1, "0", LIVE, "share of the opening that streaks of film cover: starbursts"),
+    WHOLE(scene_lens, starburst_rays, 1, 8, "3", LIVE, "directions of their rays, of which each has two"),
+    NUMBER(scene_lens, starburst_deg, -360, 360, "15", LIVE,
+           "of the first ray: 0 is to the right seen from outside, 90 up"),
     NUMBER(scene_lens, wipe_every_s, 0, 3600, "0", LIVE, "a cloth wipes the element so often; 0: never"),
     NUMBER(scene_lens, wipe_s, 0.1, 60, "0.3", LIVE, "from one side to the other, and as long back"),
     NUMBER(scene_lens, cell_m, 0.0005, 0.01, "0.001", RESTARTS, "side of a cell, of which one drop has one"),
@@ -51,8 +55,9 @@ TOOL_SECTION_OF(lens)
 static bool check_lens(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_lens *lens = scene_lens_of(scene);
-    if (lens->veil > 0 && !lens->drops)
-        return scene_file_refuse(scene, "lens.veil", error, error_size, "expected drops: true beside it");
+    if ((lens->veil > 0 || lens->starburst > 0) && !lens->drops)
+        return scene_file_refuse(scene, lens->veil > 0 ? "lens.veil" : "lens.starburst", error, error_size,
+                                 "expected drops: true beside it");
     if (lens->wipe_every_s > 0 && lens->wipe_every_s < 2 * lens->wipe_s)
         return scene_file_refuse(scene, "lens.wipe_every_s", error, error_size,
                                  "expected 0, or at least twice wipe_s (%g), got %g", lens->wipe_s, lens->wipe_every_s);

@@ -16,7 +16,8 @@ typedef struct scene_lens {
     double diameter_mm;                   /* of the element */
     uint32_t kind;                        /* virga_glass_kind */
     double *advancing_deg, *receding_deg; /* NULL: the kind's */
-    double shelter, air_share, air_outward, evaporation_mm_h, mist_max_mm, veil;
+    double shelter, air_share, air_outward, evaporation_mm_h, mist_max_mm, veil, starburst, starburst_deg;
+    uint32_t starburst_rays;
     double wipe_every_s; /* a cloth wipes it so often; 0: never */
     double wipe_s;       /* from one side to the other */
     double cell_m;

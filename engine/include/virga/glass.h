@@ -443,6 +443,18 @@ typedef struct virga_glass_settings {
      * picture. 0: none. Default 0. */
     float veil;
 
+    /* [0; 1] (front) share of the lens's opening that streaks of film cover, as a cloth leaves them: starbursts. A
+     * streak spreads the light of a lamp across itself, to both sides, as far as film at the receding contact angle (at
+     * most 40 degrees) bends it; lamps lose as much. Costs 64 starburst_rays look-ups a pixel of the picture. 0: none.
+     * Default 0. */
+    float starburst;
+
+    /* [1; 8] directions of the rays, at equal angles; there are twice as many rays. Default 3. */
+    uint32_t starburst_rays;
+
+    /* [-360; 360] direction of the first ray, from u towards v. Default 15. */
+    float starburst_deg;
+
     /* [0; 50] thickness of the glass (physical). Default 5. */
     float thickness_mm;
 

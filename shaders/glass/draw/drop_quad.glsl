@@ -3,7 +3,7 @@ layout(scalar, set = 0, binding = 19) readonly buffer Corners { uint corners[]; 
 
 uint quad_word(uint quad, uint word)
 {
-    return corners[look.quads_offset + 3u * (look.pane.max_drops + 1u) + VIRGA_GLASS_QUAD_WORDS * quad + word];
+    return corners[look.quads_offset + 3u * (look.pane.max_drops + 2u) + VIRGA_GLASS_QUAD_WORDS * quad + word];
 }
 
 float quad_float(uint quad, uint word) { return uintBitsToFloat(quad_word(quad, word)); }

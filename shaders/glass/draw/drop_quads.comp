@@ -98,7 +98,7 @@ void main()
     const bool shown = kind != VIRGA_GLASS_FREE && alpha > 0.0;
     write_indices(i, shown);
     if (shown)
-        write_quad(look.quads_offset + 3u * (look.pane.max_drops + 1u) + VIRGA_GLASS_QUAD_WORDS * i,
+        write_quad(look.quads_offset + 3u * (look.pane.max_drops + 2u) + VIRGA_GLASS_QUAD_WORDS * i,
                    quad_at(middle, radius_m, clip, clip_of_pane(pane.along_u, 0.0) * radius_m,
                            clip_of_pane(pane.along_v, 0.0) * radius_m, alpha));
 }

@@ -32,7 +32,7 @@ float opening_m(float away_m)
 // where the near plane is behind it.
 void write_quad(uint i, vec2 at, vec2 scale, vec2 middle, float radius_m, float size, float opening, float veil)
 {
-    const uint first = look.quads_offset + 3u * (look.pane.max_drops + 1u) + VIRGA_GLASS_QUAD_WORDS * i;
+    const uint first = look.quads_offset + 3u * (look.pane.max_drops + 2u) + VIRGA_GLASS_QUAD_WORDS * i;
     const float words[VIRGA_GLASS_QUAD_WORDS] =
         float[](at.x, at.y, 0.5, 1.0, scale.x, 0.0, 0.0, 0.0, 0.0, scale.y, 0.0, 0.0, middle.x, middle.y, radius_m,
                 size, opening, veil, 0.0, 0.0);
@@ -54,22 +54,30 @@ void write_indices(uint i, bool shown)
 }
 
 // After all drops: over the whole picture, as if a drop at the pane's middle were before all of the opening. The
-// triangle around a circle of radius 1.5 holds the square from -1 to 1.
-void write_veil()
+// triangle around a circle of radius 1.5 holds the square from -1 to 1. `share`: of the veil; less than 0: of the
+// streaks.
+void write_whole(uint i, float share)
 {
     const vec2 middle = 0.5 * vec2(look.pane.width_m, look.pane.height_m);
-    write_indices(state.shown, true);
-    write_quad(state.shown, vec2(0.0), vec2(1.0), middle, 1.0, 1.5, WHOLE, look.veil);
+    write_indices(i, true);
+    write_quad(i, vec2(0.0), vec2(1.0), middle, 1.0, 1.5, WHOLE, share);
+}
+
+void write_counts()
+{
+    const uint veils = look.veil > 0.0 ? 1u : 0u, streaks = look.starburst > 0.0 ? 1u : 0u;
+    work.quads = virga_glass_corners_gpu(3u * (state.shown + veils + streaks), 1u, look.quads_offset, 0, 0u);
+    if (veils > 0u)
+        write_whole(state.shown, look.veil);
+    if (streaks > 0u)
+        write_whole(state.shown + veils, -look.starburst);
 }
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x, slot = listed[min(i, look.pane.max_drops - 1u)];
-    const uint quads = state.shown + (look.veil > 0.0 ? 1u : 0u);
     if (i == 0u)
-        work.quads = virga_glass_corners_gpu(3u * quads, 1u, look.quads_offset, 0, 0u);
-    if (i == 0u && look.veil > 0.0)
-        write_veil();
+        write_counts();
     if (i >= state.shown)
         return;
     const virga_glass_drop_gpu drop = drops[slot];

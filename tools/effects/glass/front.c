@@ -58,6 +58,9 @@ void glass_fill_front(const scene_file *scene, scene_pane *to, scene_wiper *wipe
     to->evaporation_mm_h = from->evaporation_mm_h;
     to->mist_max_mm = from->mist_max_mm;
     to->veil = from->veil;
+    to->starburst = from->starburst;
+    to->starburst_rays = from->starburst_rays;
+    to->starburst_deg = from->starburst_deg;
     to->cell_m = from->cell_m;
     to->max_drops = from->max_drops;
     to->max_texels = 64; /* there is no height map */

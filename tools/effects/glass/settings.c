@@ -92,6 +92,9 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
     to->textures_per_frame = from->textures_per_frame;
     to->still_behind = from->still_behind;
     to->veil = (float)from->veil;
+    to->starburst = (float)from->starburst;
+    to->starburst_rays = from->starburst_rays;
+    to->starburst_deg = (float)from->starburst_deg;
     to->thickness_mm = (float)from->thickness_mm;
     for (int c = 0; c < 3; c++)
         to->tint[c] = (float)from->tint[c];
