@@ -20,11 +20,17 @@
 /* ---- defaults */
 
 static const virga_setting_row def_rows[] = {
-    DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
-    DEF(U32, max_blocks, 64, 1048576, 32768),    DEF(U32, max_surfels, 256, 8388608, 262144),
-    DEF(U32, max_spray, 64, 262144, 4096),       DEF(U32, max_droplets, 256, 4194304, 65536),
-    DEF(U32, max_foam, 0, 1048576, 65536),       DEF(U32, max_width, 0, 16384, 1920),
-    DEF(U32, max_height, 0, 16384, 1080),        DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
+    DEF(U32, max_particles, 64, 8388608, 65536),
+    DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_blocks, 64, 1048576, 32768),
+    DEF(U32, max_surfels, 256, 8388608, 262144),
+    DEF(U32, max_spray, 64, 262144, 4096),
+    DEF(U32, max_droplets, 256, 4194304, 65536),
+    DEF(U32, max_foam, 0, 1048576, 65536),
+    DEF(U32, max_width, 0, 16384, 1920),
+    DEF(U32, max_height, 0, 16384, 1080),
+    DEF(U32, max_parts, 0, 4194304),
+    DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -65,6 +71,9 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, reflection, 0, 4, 1),
     SETTING(FLOAT, refraction, 0, 4, 1),
     SETTING(FLOAT, surfel_radius, 0.5, 4, 1.25),
+    SETTING(ENUM, shading, 0, VIRGA_WATER_SHADING_SURFELS, VIRGA_WATER_SHADING_PIXELS),
+    SETTING(FLOAT, surfel_difference, 0, 1000, 0.1),
+    SETTING(U32, surfel_divisions, 0, VIRGA_WATER_DIVISIONS, 3),
     SETTING(FLOAT, soft_m, 0, 10, 0.002),
     SETTING(FLOAT, foam_coverage, 0, 1, 0.3),
     SETTING(FLOAT, light_gain, 0, 1000, 1),
@@ -75,9 +84,20 @@ static virga_result check_def(const virga_log *log, void *given)
     virga_water_def *def = given;
     (void)log;
     if (!def->max_width || !def->max_height)
-        def->max_width = def->max_height = 0;
+        def->max_width = def->max_height = def->max_parts = 0;
     def->max_cells = particle_grid_cells(def->max_cells);
     return VIRGA_OK;
+}
+
+/* Whole surfels are in the same buffer. */
+static bool fit_parts(const virga_context *context, virga_water_def *def)
+{
+    const uint32_t bytes_each = VIRGA_WATER_PART_TEXELS * 16;
+    const bool reduced = virga_fit_storage(context, "water_def.max_surfels", bytes_each, &def->max_surfels);
+    uint32_t all = def->max_surfels + def->max_parts;
+    const bool parts_reduced = virga_fit_storage(context, "water_def.max_surfels + max_parts", bytes_each, &all);
+    def->max_parts = all - def->max_surfels;
+    return reduced || parts_reduced;
 }
 
 static virga_result fit_device(const virga_context *context, void *given)
@@ -91,6 +111,8 @@ static virga_result fit_device(const virga_context *context, void *given)
                                  &def->max_spray);
     const uint32_t surfel_bytes = def->max_width ? VIRGA_WATER_SPLAT_TEXELS * 16 : sizeof(virga_surfel_gpu);
     reduced |= virga_fit_storage(context, "water_def.max_surfels", surfel_bytes, &def->max_surfels);
+    if (def->max_parts)
+        reduced |= fit_parts(context, def);
     return reduced ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
@@ -118,6 +140,8 @@ enum {
     COUNT_DRAWN_ENTRIES,
     COUNT_SPLAT_SELECTION_BYTES,
     COUNT_SPLATS,
+    COUNT_DIVISIONS,
+    COUNT_PARTS,
     COUNT_PYRAMID,
     COUNT_PYRAMID_COLUMNS,
     COUNT_PYRAMID_ROWS,
@@ -167,6 +191,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SPLATS] = def->max_width ? def->max_surfels : 0;
     counts[COUNT_DRAWN_ENTRIES] = def->max_width ? list_entries(def->max_surfels) : 0;
     counts[COUNT_SPLAT_SELECTION_BYTES] = def->max_width ? VIRGA_SELECTION_BYTES(whole_groups(def->max_surfels)) : 0;
+    counts[COUNT_DIVISIONS] = def->max_parts ? def->max_surfels : 0;
+    counts[COUNT_PARTS] = def->max_parts ? (VkDeviceSize)def->max_surfels + def->max_parts : 0;
     counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
     counts[COUNT_PYRAMID_COLUMNS] = water_pyramid_extent(def).width;
     counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
@@ -208,6 +234,9 @@ static const virga_effect_buffer buffers[] = {
     {"water.splat_list", AT(picture.list), VIRGA_USE_INDIRECT, DEVICE, .entry = 4, .count = COUNT_DRAWN_ENTRIES},
     {"water.splats", AT(picture.splats), VIRGA_USE_TEXELS, DEVICE, .entry = VIRGA_WATER_SPLAT_TEXELS * 16,
      .count = COUNT_SPLATS},
+    {"water.divisions", AT(picture.divisions), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_DIVISIONS},
+    {"water.parts", AT(picture.parts), VIRGA_USE_TEXELS, DEVICE, .entry = VIRGA_WATER_PART_TEXELS * 16,
+     .count = COUNT_PARTS},
     {"water.prepared", AT(picture.prepared), VIRGA_USE_INDIRECT, DEVICE, .entry = sizeof(virga_water_prepared_gpu),
      .count = COUNT_DRAWN},
     {"water.pyramid", AT(picture.pyramid), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PYRAMID},
@@ -368,14 +397,22 @@ static const virga_effect_pass passes[] = {
     PICTURE(splat_scan),
     PICTURE(splat_compact),
     PICTURE(splat_write),
+    PICTURE(divide_mark),
+    PICTURE(divide_scan),
+    PICTURE(divide_write),
     PICTURE(volume),
     PICTURE(volume_merge),
     PICTURE(foam),
 };
 
 static const virga_effect_pool pools[] = {
-    POOL(max_foam, 0, 256),      POOL(max_surfels, 256, 256), POOL(max_droplets, 256, 256),
-    POOL(max_spray, 64, 64),     POOL(max_blocks, 64, 64),    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
+    POOL(max_parts, 0, 256),
+    POOL(max_foam, 0, 256),
+    POOL(max_surfels, 256, 256),
+    POOL(max_droplets, 256, 256),
+    POOL(max_spray, 64, 64),
+    POOL(max_blocks, 64, 64),
+    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
     POOL(max_particles, 64, 64),
 };
 
@@ -387,6 +424,20 @@ static virga_result create(void *object)
 static void destroy(void *object)
 {
     water_images_retire(object);
+}
+
+static virga_result check_settings(const void *object, void *given, bool *changed)
+{
+    const virga_water *water = object;
+    virga_water_settings *settings = given;
+    if (settings->shading != VIRGA_WATER_SHADING_SURFELS || water->def.max_parts || !water->def.max_width)
+        return VIRGA_OK;
+    virga_log_write(
+        &water->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+        "water_settings.shading: surfels need water_def.max_parts, which is 0: light is computed in pixels");
+    settings->shading = VIRGA_WATER_SHADING_PIXELS;
+    *changed = true;
+    return VIRGA_OK;
 }
 
 static VkDeviceSize extra_bytes(const void *def)
@@ -430,7 +481,7 @@ static virga_result draw_if_sized(void *object, VkCommandBuffer cmd, const virga
 const virga_effect_type water_type = {
     VIRGA_EFFECT_TYPE(water, "water", "water_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, create, destroy, extra_bytes, prepare),
+    VIRGA_CALLBACKS(fit_device, create, destroy, extra_bytes, check_settings, prepare),
     .lighting = offsetof(virga_water_settings, lighting),
     .draws = water_draws,
     .draw_count = WATER_DRAWS,

@@ -20,33 +20,37 @@ _Static_assert(VIRGA_WATER_DATA_THICKNESS == VIRGA_WATER_DATA_THICKNESS_GPU, "th
 _Static_assert(VIRGA_WATER_DATA_NORMAL == VIRGA_WATER_DATA_NORMAL_GPU, "the same values");
 _Static_assert(VIRGA_WATER_DATA_MOTION == VIRGA_WATER_DATA_MOTION_GPU, "the same values");
 
-enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA };
+enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA, BIND_COLORS = 27 };
 
 const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
-    RING(VIRGA_ALL_STAGES, picture.view_ring, water_view_block),   /* 0 */
-    BUFFER(state),                                                 /* 1 */
-    BUFFER(surfels),                                               /* 2 */
-    TEXEL_BUFFER(surfels),                                         /* 3 */
-    BUFFER(picture.selection),                                     /* 4 */
-    BUFFER(picture.list),                                          /* 5 */
-    BUFFER_IN(COMPUTE | VERTEX, picture.splats),                   /* 6 */
-    TEXEL_BUFFER_IN(VERTEX, picture.splats),                       /* 7 */
-    BUFFER(picture.prepared),                                      /* 8 */
-    BUFFER(grid.state),                                            /* 9 */
-    BUFFER(picture.pyramid),                                       /* 10 */
-    BUFFER(grid.sorted),                                           /* 11 */
-    TEXEL_BUFFER(grid.sorted),                                     /* 12 */
-    STORAGE_IMAGE(picture.thickness),                              /* 13 */
-    [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                   /* 14 */
-    [BIND_MOTION] = {SAMPLED, FRAGMENT},                           /* 15 */
-    [BIND_THICKNESS] = SAMPLED_IMAGE(FRAGMENT, picture.thickness), /* 16 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                            /* 17 */
-    [BIND_COLOR] = {SAMPLED, FRAGMENT},                            /* 18 */
-    [BIND_PANORAMA] = {SAMPLED, FRAGMENT},                         /* 19 */
-    BUFFER(foam.slots),                                            /* 20 */
-    BUFFER(foam.particles),                                        /* 21 */
-    BUFFER_IN(COMPUTE | VERTEX, picture.foam_splats),              /* 22 */
-    TEXEL_BUFFER_IN(VERTEX, picture.foam_splats),                  /* 23 */
+    RING(VIRGA_ALL_STAGES, picture.view_ring, water_view_block),             /* 0 */
+    BUFFER(state),                                                           /* 1 */
+    BUFFER(surfels),                                                         /* 2 */
+    TEXEL_BUFFER(surfels),                                                   /* 3 */
+    BUFFER(picture.selection),                                               /* 4 */
+    BUFFER(picture.list),                                                    /* 5 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.splats),                             /* 6 */
+    TEXEL_BUFFER_IN(VERTEX, picture.splats),                                 /* 7 */
+    BUFFER(picture.prepared),                                                /* 8 */
+    BUFFER(grid.state),                                                      /* 9 */
+    BUFFER(picture.pyramid),                                                 /* 10 */
+    BUFFER(grid.sorted),                                                     /* 11 */
+    TEXEL_BUFFER(grid.sorted),                                               /* 12 */
+    STORAGE_IMAGE(picture.thickness),                                        /* 13 */
+    [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                             /* 14 */
+    [BIND_MOTION] = {SAMPLED, FRAGMENT},                                     /* 15 */
+    [BIND_THICKNESS] = SAMPLED_IMAGE(FRAGMENT | COMPUTE, picture.thickness), /* 16 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT | COMPUTE},                            /* 17 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT | COMPUTE},                            /* 18 */
+    [BIND_PANORAMA] = {SAMPLED, FRAGMENT | COMPUTE},                         /* 19 */
+    BUFFER(foam.slots),                                                      /* 20 */
+    BUFFER(foam.particles),                                                  /* 21 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.foam_splats),                        /* 22 */
+    TEXEL_BUFFER_IN(VERTEX, picture.foam_splats),                            /* 23 */
+    BUFFER(picture.divisions),                                               /* 24 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.parts),                              /* 25 */
+    TEXEL_BUFFER_IN(VERTEX, picture.parts),                                  /* 26 */
+    [BIND_COLORS] = {SAMPLED, FRAGMENT},                                     /* 27 */
 };
 
 /* ---- prepare */
@@ -82,6 +86,9 @@ static void fill_look(const virga_water *water, const virga_view *view, virga_wa
     look->refraction = settings->refraction;
     look->foam_coverage = settings->foam_coverage;
     look->foam_late_s = water->foam_late_s;
+    look->divisions = settings->surfel_divisions;
+    look->max_parts = water->def.max_parts;
+    look->difference = settings->surfel_difference;
     look->panorama_given = water->picture.panorama.view != VK_NULL_HANDLE;
 }
 
@@ -111,6 +118,7 @@ static VkDescriptorSet write_set(virga_water *water, uint32_t index, const virga
     virga_effect_bound(&water->base, picture->bindings, bound);
     bound[BIND_SUMS] = sampled(context, picture->sums->colors[0]);
     bound[BIND_MOTION] = sampled(context, picture->sums->colors[1]);
+    bound[BIND_COLORS] = sampled(context, picture->colors ? picture->colors->colors[0] : picture->blank_color);
     bound[BIND_DEPTH] = virga_bound_or_blank(&view->depth, picture->blank_depth, context->nearest);
     bound[BIND_COLOR] =
         virga_bound_or_blank(&view->color, picture->blank_color, virga_color_sampler(context, &view->color));
@@ -166,6 +174,22 @@ static void record_list(virga_water *water, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
+/* Two draws into images: the depth of splats, then sums. The arguments of the second are at an offset in `prepared`. */
+static void record_sums(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look,
+                        const virga_offscreen *images, const virga_pipeline *const pipelines[2], VkDeviceSize second)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    virga_offscreen_begin(context, cmd, images, 0);
+    virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, picture->view_offset);
+    for (int i = 0; i < 2; i++) {
+        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]->pipeline);
+        context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, i ? second : 0, 1, 0);
+    }
+    virga_offscreen_end(context, cmd);
+}
+
 static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set,
                           const virga_water_look_gpu *look)
 {
@@ -173,14 +197,29 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
     const water_picture *picture = &water->picture;
     const virga_pipeline *const pipelines[2] = {picture->splat_depth, picture->splat_sum};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.splats");
-    virga_offscreen_begin(context, cmd, picture->sums, 0);
-    virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
-    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, picture->view_offset);
-    for (int i = 0; i < 2; i++) {
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]->pipeline);
-        context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, 0, 1, 0);
-    }
-    virga_offscreen_end(context, cmd);
+    record_sums(water, cmd, set, look, picture->sums, pipelines, 0);
+    virga_pass_end(context, cmd, scope);
+}
+
+/* Light by surfels. The host's barriers may cover only fragment shaders, so this adds one for compute. */
+static void record_parts(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look,
+                         const virga_view *view)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    const virga_pipeline *const pipelines[2] = {picture->part_depth, picture->part_sum};
+    const VkPipelineStageFlags color = view->color.view ? view->color.before.stage : 0;
+    virga_pass_scope scope = virga_pass_begin(context, cmd, "water.divide");
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | color, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, picture->view_offset);
+    over(water, cmd, picture->divide_mark, picture->list, 0);
+    virga_dispatch_and_barrier(context, cmd, picture->divide_scan, 1);
+    over(water, cmd, picture->divide_write, picture->list, 0);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_VERTICES);
+    virga_pass_end(context, cmd, scope);
+    scope = virga_pass_begin(context, cmd, "water.parts");
+    record_sums(water, cmd, set, look, picture->colors, pipelines, offsetof(virga_water_prepared_gpu, part_vertices));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -216,6 +255,8 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
         return result;
     virga_timers_reset(context, cmd);
     picture->sums = picture->sums_of_view[water->base.slot];
+    picture->colors = picture->colors_of_view[water->base.slot];
+    const bool by_surfels = water->settings.shading == VIRGA_WATER_SHADING_SURFELS && water->def.max_parts;
     water_view_block block;
     uint32_t index;
     fill_view(water, view, &block);
@@ -229,12 +270,14 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
     record_volumes(water, cmd, &block.look);
     record_list(water, cmd);
     record_splats(water, cmd, set, &block.look);
+    if (by_surfels)
+        record_parts(water, cmd, set, &block.look, view);
     virga_effect_set_view(&water->base, set, picture->view_offset, view, prepared);
     if (water_has_foam(water))
         record_foam(water, cmd, set);
-    picture->look[water->base.slot] = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) |
-                                      (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
-                                      (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
+    picture->look[water->base.slot] =
+        (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
+        (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0) | (by_surfels ? VIRGA_WATER_LOOK_SURFELS : 0);
     return virga_check_uploads(context);
 }
 
@@ -247,6 +290,8 @@ const virga_effect_draw water_draws[WATER_DRAWS] = {
     {"water.draw", VIRGA_VERTEX_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
     {"water.foam_draw", VIRGA_VERTEX_FORM(water_draw_foam_vert), VIRGA_FRAGMENT_FORMS(water_draw_foam_frag), looks, 2},
     {"water.data_draw", VIRGA_VERTEX_FORM(water_draw_data_vert), VIRGA_FORM(water_draw_data_frag)},
+    {"water.surfel_draw", VIRGA_VERTEX_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_surfel_frag), looks,
+     2},
 };
 
 virga_result virga_water_attach(virga_water *water, const virga_target *target)
@@ -258,10 +303,10 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
     return virga_effect_attach(&water->base, "virga_water_attach", target);
 }
 
-/* The pipelines of a target: those of water and of foam by looks, and that of data. */
+/* The pipelines of a target: those of water and of foam by looks, that of data, and those of light by surfels. */
 static uint32_t draw_of_water(uint32_t look)
 {
-    return look;
+    return look & VIRGA_WATER_LOOK_SURFELS ? LOOKS + 3 + (look & VIRGA_WATER_LOOK_DEPTH) : look;
 }
 
 static uint32_t draw_of_foam(uint32_t look)

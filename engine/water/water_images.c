@@ -32,36 +32,68 @@ uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_W
 
 VkDeviceSize water_images_bytes(const virga_water_def *def)
 {
-    return def->max_views * (VkDeviceSize)def->max_width * def->max_height * (16 + 4 + 4);
+    const VkDeviceSize each = 16 + 4 + 4 + (def->max_parts ? 16 + 4 : 0);
+    return def->max_views * (VkDeviceSize)def->max_width * def->max_height * each;
 }
 
 /* ---- creation */
 
-/* Two draws of the same splats: the depth of the nearest water, then the sums of what lies on it. */
-static virga_result create_pipelines(virga_water *water)
+/* Two draws into the same images: the depth of the nearest water by its splats, then the sums of what lies on it. */
+typedef struct water_sums {
+    const virga_offscreen *images;
+    virga_spirv vertex, fragment; /* of the sums */
+    const char *depth_name, *sum_name;
+    virga_pipeline **depth, **sum;
+} water_sums;
+
+static virga_result create_pipelines(virga_water *water, const water_sums *sums)
 {
     virga_context *context = water->base.context;
-    water_picture *picture = &water->picture;
     virga_result result = VIRGA_OK;
     virga_graphics_def def = {.vertex = VIRGA_SPIRV(water_draw_splat_vert),
                               .fragment = VIRGA_SPIRV(water_draw_splat_depth_frag),
-                              .layout = picture->bindings->layout,
-                              .render_pass = picture->sums->pass,
-                              .color_count = 2,
+                              .layout = water->picture.bindings->layout,
+                              .render_pass = sums->images->pass,
+                              .color_count = sums->images->color_count,
                               .no_color = true,
                               .depth_test = true,
                               .depth_write = true,
                               .reversed_depth = true,
                               .constant = 1,
                               .group = &water->base.passes,
-                              .name = "water.splat_depth"};
-    TRY(virga_graphics_pipeline_create(context, &def, &picture->splat_depth));
-    def.fragment = VIRGA_SPIRV(water_draw_splat_sum_frag);
+                              .name = sums->depth_name};
+    TRY(virga_graphics_pipeline_create(context, &def, sums->depth));
+    def.vertex = sums->vertex;
+    def.fragment = sums->fragment;
     def.no_color = def.depth_write = false;
     def.blend_add = def.add_all = true;
     def.constant = 0;
-    def.name = "water.splat_sum";
-    TRY(virga_graphics_pipeline_create(context, &def, &picture->splat_sum));
+    def.name = sums->sum_name;
+    TRY(virga_graphics_pipeline_create(context, &def, sums->sum));
+error:
+    return result;
+}
+
+/* What light by surfels is added up in. */
+static virga_result create_colors(virga_water *water)
+{
+    virga_context *context = water->base.context;
+    water_picture *picture = &water->picture;
+    const virga_offscreen_def def = {.name = "water.colors",
+                                     .extent = {water->def.max_width, water->def.max_height},
+                                     .layers = 1,
+                                     .colors = {SUMS},
+                                     .depth = DEPTH,
+                                     .reversed_depth = true,
+                                     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     .readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT};
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < water->base.max_views; i++)
+        TRY(virga_offscreen_create(context, &def, &picture->colors_of_view[i]));
+    picture->colors = picture->colors_of_view[0];
+    TRY(create_pipelines(water, &(water_sums){picture->colors, VIRGA_SPIRV(water_draw_part_vert),
+                                              VIRGA_SPIRV(water_draw_part_sum_frag), "water.part_depth",
+                                              "water.part_sum", &picture->part_depth, &picture->part_sum}));
 error:
     return result;
 }
@@ -101,7 +133,11 @@ virga_result water_images_create(virga_water *water)
     for (uint32_t i = 0; i < water->base.max_views; i++)
         TRY(virga_offscreen_create(context, &def, &picture->sums_of_view[i]));
     picture->sums = picture->sums_of_view[0];
-    TRY(create_pipelines(water));
+    TRY(create_pipelines(water, &(water_sums){picture->sums, VIRGA_SPIRV(water_draw_splat_vert),
+                                              VIRGA_SPIRV(water_draw_splat_sum_frag), "water.splat_depth",
+                                              "water.splat_sum", &picture->splat_depth, &picture->splat_sum}));
+    if (water->def.max_parts)
+        TRY(create_colors(water));
 error:
     return result;
 }
@@ -112,6 +148,10 @@ void water_images_retire(virga_water *water)
     water_picture *picture = &water->picture;
     VIRGA_RETIRE(context, picture->splat_depth);
     VIRGA_RETIRE(context, picture->splat_sum);
-    for (uint32_t i = 0; i < water->base.max_views; i++)
+    VIRGA_RETIRE(context, picture->part_depth);
+    VIRGA_RETIRE(context, picture->part_sum);
+    for (uint32_t i = 0; i < water->base.max_views; i++) {
         virga_offscreen_retire(context, &picture->sums_of_view[i]);
+        virga_offscreen_retire(context, &picture->colors_of_view[i]);
+    }
 }

@@ -10,14 +10,18 @@ typedef struct virga_water_look_gpu virga_water_look_gpu;
 typedef struct virga_water_prepared_gpu virga_water_prepared_gpu;
 #endif
 
-#define VIRGA_WATER_SURFEL_STEPS  1.2f  /* radius of a surfel, in steps of the grid that surfels are made on */
-#define VIRGA_WATER_SPLAT_TEXELS  3     /* texels of a splat, see splat_write.comp */
-#define VIRGA_WATER_VOLUME_LEVELS 8     /* of the pyramid that the thickness is summed up in */
-#define VIRGA_WATER_VOLUME_PX     4     /* side of a texel of its finest level; each coarser one has twice as much */
-#define VIRGA_WATER_VOLUME_UNITS  16e6f /* units of its sums in a metre of thickness */
-#define VIRGA_WATER_LOOK_DEPTH    1u    /* bits of a draw's specialisation constant: the view has depth */
-#define VIRGA_WATER_LOOK_COLOR    2u    /* it has color */
-#define VIRGA_WATER_LOOK_SCALED   4u    /* the effect's images have other pixels than the target */
+#define VIRGA_WATER_SURFEL_STEPS  1.2f   /* radius of a surfel, in steps of the grid that surfels are made on */
+#define VIRGA_WATER_SPLAT_TEXELS  3      /* texels of a splat, see splat_write.comp */
+#define VIRGA_WATER_VOLUME_LEVELS 8      /* of the pyramid that the thickness is summed up in */
+#define VIRGA_WATER_VOLUME_PX     4      /* side of a texel of its finest level; each coarser one has twice as much */
+#define VIRGA_WATER_VOLUME_UNITS  16e6f  /* units of its sums in a metre of thickness */
+#define VIRGA_WATER_LOOK_DEPTH    1u     /* bits of a draw's specialisation constant: the view has depth */
+#define VIRGA_WATER_LOOK_COLOR    2u     /* it has color */
+#define VIRGA_WATER_LOOK_SCALED   4u     /* the effect's images have other pixels than the target */
+#define VIRGA_WATER_LOOK_SURFELS  8u     /* light is computed for surfels, not for pixels */
+#define VIRGA_WATER_DIVISIONS     3u     /* a surfel is divided so often at most */
+#define VIRGA_WATER_PART_TEXELS   4      /* texels of a part of a surfel, see divide_write.comp */
+#define VIRGA_WATER_PART_OFFSET   0.306f /* of a part's center along each axis, in radii of what is divided */
 
 /* Values of virga_water_data. */
 #define VIRGA_WATER_DATA_THICKNESS_GPU 0u
@@ -46,6 +50,9 @@ struct virga_water_look_gpu {
     uint panorama_given;     /* */
     float foam_coverage;     /* of one of its particles, in its center */
     float foam_late_s;       /* foam is drawn where it was so long before its newest step */
+    uint divisions;          /* a surfel is divided so often at most */
+    uint max_parts;          /* that all divisions may add */
+    float difference;        /* of four colors, from which on what has them is divided; in parts of their mean */
 };
 
 /* Written by the passes of a prepare. */
@@ -56,11 +63,16 @@ struct virga_water_prepared_gpu {
     uint first_instance;
     uint word_groups[3]; /* of the pass that lists visible surfels */
     uint levels;         /* bit mask: levels of the pyramid in use */
+    uint part_vertices;  /* indirect arguments of the draw of all parts of surfels */
+    uint part_instances;
+    uint part_first_vertex;
+    uint part_first_instance;
+    uint parts_added; /* by all divisions for which there was room */
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_look_gpu, 156);
-VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_water_look_gpu, 168);
+VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 52);
 #undef uint
 #endif
 

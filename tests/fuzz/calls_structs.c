@@ -197,6 +197,7 @@ void calls_fill_water_def(calls *c, virga_water_def *out)
     SMALL(max_surfels, 256, 4096);
     SMALL(max_spray, 0, 64);
     SMALL(max_droplets, 64, 256);
+    SMALL(max_parts, 0, 256);
     SMALL(max_width, 16, 32);
     SMALL(max_height, 16, 32);
     if (!c->device->honest)

@@ -76,6 +76,10 @@ static void water(void **state)
     const virga_water_settings def = virga_default_water_settings();
     SAME(kernel_spacings);
     SAME(level);
+    SAME(style);
+    SAME(shading);
+    SAME(surfel_difference);
+    SAME(surfel_divisions);
     SAME(kernel);
     SAME(smoothing);
     SAME(stretch);
@@ -106,6 +110,10 @@ static void water(void **state)
     SAME(light_gain);
     assert_int_equal(SCENE_WATER_KERNEL_ISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC);
     assert_int_equal(SCENE_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ANISOTROPIC);
+    assert_int_equal(SCENE_WATER_STYLE_PAPER, VIRGA_WATER_STYLE_PAPER);
+    assert_int_equal(SCENE_WATER_STYLE_PHYSICAL, VIRGA_WATER_STYLE_PHYSICAL);
+    assert_int_equal(SCENE_WATER_SHADING_PIXELS, VIRGA_WATER_SHADING_PIXELS);
+    assert_int_equal(SCENE_WATER_SHADING_SURFELS, VIRGA_WATER_SHADING_SURFELS);
     assert_null(from->files);
     scene_file_free(scene);
 }

@@ -17,6 +17,10 @@ static const scene_keyword water_ids[] = {
 static const scene_keyword water_ups[] = {{"y", SCENE_WATER_UP_Y}, {"z", SCENE_WATER_UP_Z}, {NULL, 0}};
 static const scene_keyword water_kernels[] = {
     {"isotropic", SCENE_WATER_KERNEL_ISOTROPIC}, {"anisotropic", SCENE_WATER_KERNEL_ANISOTROPIC}, {NULL, 0}};
+static const scene_keyword water_styles[] = {
+    {"paper", SCENE_WATER_STYLE_PAPER}, {"physical", SCENE_WATER_STYLE_PHYSICAL}, {NULL, 0}};
+static const scene_keyword water_shadings[] = {
+    {"pixels", SCENE_WATER_SHADING_PIXELS}, {"surfels", SCENE_WATER_SHADING_SURFELS}, {NULL, 0}};
 
 /* Ranges and defaults of what the library has are its own: virga/water.h. */
 static const scene_row water_rows[] = {
@@ -45,6 +49,8 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, smoothing, 0, 1, "0.9", LIVE,
            "(anisotropic) how far centers of kernels move towards the mean of their neighbours"),
     NUMBER(scene_water, stretch, 1, 4, "2", LIVE, "(anisotropic) largest ratio of two axes of a kernel"),
+    CHOICE(scene_water, style, water_styles, "physical", LIVE,
+           "of spray; paper: equal droplets in a pattern; physical: of many sizes, with drag"),
     NUMBER(scene_water, spray_density, 0, 0.9, "0.35", LIVE, "particles with less density become droplets; 0: none do"),
     WHOLE(scene_water, spray_pieces, 1, 32, "25", LIVE, "droplets that a particle becomes at most"),
     NUMBER(scene_water, spray_speed_m_s, 0.01, 1000, "4", LIVE, "speed at which it becomes so many"),
@@ -70,6 +76,11 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, reflection, 0, 4, "1", LIVE, "multiplies what the surface mirrors; 1: Fresnel"),
     NUMBER(scene_water, refraction, 0, 4, "1", LIVE, "multiplies how far what is seen through the water is shifted"),
     NUMBER(scene_water, surfel_radius, 0.5, 4, "1.25", LIVE, "multiplies the size of surfels; larger is smoother"),
+    CHOICE(scene_water, shading, water_shadings, "pixels", RESTARTS,
+           "where light is computed; surfels: as the paper does, for comparisons"),
+    NUMBER(scene_water, surfel_difference, 0, 1000, "0.1", LIVE,
+           "(surfels) one whose colors differ by this part of their mean is divided: C_a"),
+    WHOLE(scene_water, surfel_divisions, 0, 3, "3", LIVE, "(surfels) how often one is divided at most; 0: never"),
     NUMBER(scene_water, soft_m, 0, 10, "0.002", LIVE, "water fades over this depth where it meets geometry"),
     NUMBER(scene_water, light_gain, 0, 1000, "1", LIVE, "multiplies the light of lamps on the water"),
     WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: as many as there are"),
@@ -77,6 +88,8 @@ static const scene_row water_rows[] = {
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
           "cells that the surface runs through; 280 bytes each; 0: by the water"),
     WHOLE(scene_water, max_foam, 0, 1048576, "131072", RESTARTS, "particles of foam; 80 bytes each; 0: none"),
+    WHOLE(scene_water, max_parts, 1, 4194304, "1048576", RESTARTS,
+          "(surfels) parts that divisions add at most; 64 bytes each"),
     WHOLE(scene_water, max_surfels, 0, 8388608, "0", RESTARTS, "of the surface; 32 bytes each; 0: by the water"),
 };
 static const scene_group water_group = SCENE_GROUP(scene_water, water_rows);
@@ -160,6 +173,7 @@ static void size_pools(const scene_water *from, const water_source *source, virg
     def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 2097152);
     def->max_spray = size_of(0, 0.25 * source->most, def->max_spray, 262144);
     def->max_foam = from->max_foam;
+    def->max_parts = from->shading == SCENE_WATER_SHADING_SURFELS ? from->max_parts : 0;
     def->max_droplets = size_of(0, 4.0 * source->most, def->max_droplets, 1048576);
     def->max_particles = def->max_particles < 64 ? 64 : def->max_particles;
     def->max_cells = def->max_cells < 4096 ? 4096 : def->max_cells;
@@ -253,6 +267,10 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.volume_m3 = (float)(from->volume * pow(p->source.spacing_m, 3));
     settings.kernel_spacings = (float)from->kernel_spacings;
     settings.level = (float)from->level;
+    settings.style = (virga_water_style)from->style;
+    settings.shading = (virga_water_shading)from->shading;
+    settings.surfel_difference = (float)from->surfel_difference;
+    settings.surfel_divisions = from->surfel_divisions;
     settings.spray_density = (float)from->spray_density;
     settings.spray_pieces = from->spray_pieces;
     settings.spray_speed_m_s = (float)from->spray_speed_m_s;

@@ -11,6 +11,9 @@ extern "C" {
 typedef enum scene_water_ids { SCENE_WATER_IDS_FILE, SCENE_WATER_IDS_ROWS, SCENE_WATER_IDS_NONE } scene_water_ids;
 typedef enum scene_water_up { SCENE_WATER_UP_Y, SCENE_WATER_UP_Z } scene_water_up;
 
+typedef enum scene_water_style { SCENE_WATER_STYLE_PAPER, SCENE_WATER_STYLE_PHYSICAL } scene_water_style;
+typedef enum scene_water_shading { SCENE_WATER_SHADING_PIXELS, SCENE_WATER_SHADING_SURFELS } scene_water_shading;
+
 typedef enum scene_water_kernel { SCENE_WATER_KERNEL_ISOTROPIC, SCENE_WATER_KERNEL_ANISOTROPIC } scene_water_kernel;
 
 /* Water that the program simulates, see virga/fluid.h. All positions are relative to scene_water.position_m. */
@@ -84,6 +87,9 @@ typedef struct scene_water {
     double kernel_spacings, level;
     uint32_t kernel; /* scene_water_kernel */
     double smoothing, stretch;
+    uint32_t style, shading; /* scene_water_style, scene_water_shading */
+    double surfel_difference;
+    uint32_t surfel_divisions, max_parts;
     double spray_density, spray_speed_m_s, spray_pattern;
     bool hand_over;
     double hand_over_s;

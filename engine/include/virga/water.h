@@ -79,6 +79,11 @@ typedef struct virga_water_def {
      * and nothing is allocated for it. */
     uint32_t max_width, max_height;
 
+    /* [0; 4194304] (VIRGA_WATER_SHADING_SURFELS) parts that all divisions of surfels may add in a picture: 64 bytes
+     * each, 72 more for each surfel, and 20 for each pixel and view. The surfels for whose parts there is no room stay
+     * whole. 0: there is no such shading. Default 0. */
+    uint32_t max_parts;
+
     /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs 24
      * bytes per pixel of max_width x max_height. Default 1. */
     uint32_t max_views;
@@ -110,6 +115,18 @@ typedef enum virga_water_kernel {
      * radius of 2 spacings, and of 0.033 and 0.036 with 3. On software Vulkan a step takes 1.6 to 2.7 times as long. */
     VIRGA_WATER_KERNEL_ANISOTROPIC = 1,
 } virga_water_kernel;
+
+/* Where the light of the surface is computed. */
+typedef enum virga_water_shading {
+    /* In each pixel, with the normal that the surfels there add up to. */
+    VIRGA_WATER_SHADING_PIXELS = 0,
+
+    /* As in the paper (section 5): in four points of each surfel, with its own normal. Where the four colors differ by
+     * more than surfel_difference, the surfel is divided into four of half its radius, down to the size of a pixel. One
+     * that is not divided has the mean of its four colors. Pictures are softer, and glitter is lost; cost grows with
+     * the surfels in view instead of the pixels. It is for comparisons, and needs virga_water_def.max_parts. */
+    VIRGA_WATER_SHADING_SURFELS = 1,
+} virga_water_shading;
 
 typedef struct virga_water_settings {
     uint32_t size, cookie;
@@ -235,6 +252,20 @@ typedef struct virga_water_settings {
      * their square. Default 1.25. */
     float surfel_radius;
 
+    /* Where light is computed. Surfels without virga_water_def.max_parts: VIRGA_DEGRADED, logged, and pixels are used.
+     * Default pixels. */
+    virga_water_shading shading;
+
+    /* (surfels) [0; 1000] difference of four colors from which on a surfel is divided: C_a of section 5. It is that of
+     * the channel where they are farthest apart, in parts of the mean of the brightest channel, so it is the same in
+     * bright and dark scenes. 0: each surfel that is larger than a pixel is divided, if its colors differ at all.
+     * Default 0.1. */
+    float surfel_difference;
+
+    /* (surfels) [0; 3] how often a surfel and its parts are divided at most; 0: never. Each time costs up to four times
+     * as many colors. Default 3. */
+    uint32_t surfel_divisions;
+
     /* [0; 10] range of depth over which the water fades where it meets the scene (m). Needs virga_view.depth. Default
      * 0.002. */
     float soft_m;
@@ -328,7 +359,8 @@ VIRGA_API virga_result virga_water_environment(virga_water *water, const virga_i
  * The water is drawn where the particles of the step are.
  *
  * VIRGA_NOT_READY: no step in this frame, no max_width, or pipelines are missing; nothing is recorded.
- * Costs two draws of each surfel that faces the camera, and nine atomic additions for each particle. */
+ * Costs two draws of each surfel that faces the camera, and nine atomic additions for each particle. With
+ * VIRGA_WATER_SHADING_SURFELS, also a draw of each surfel and of each part, and four to eight colors for each part. */
 VIRGA_API virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view);
 
 /* The same, and *prepared (may be NULL) gets the view's handle for virga_water_draw_view; 0 if nothing was prepared. Up

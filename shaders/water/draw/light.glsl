@@ -1,4 +1,4 @@
-// light.glsl - the light that comes from a point of the water's surface.
+// light.glsl - the light that comes from a point of the water's surface. See gpu/scene_depth.glsl for PIXEL_HERE.
 #include "gpu/host_color.glsl"
 layout(set = 0, binding = 18) uniform sampler2D scene_color;
 layout(set = 0, binding = 19) uniform sampler2D panorama;
@@ -77,7 +77,7 @@ float meeting(Point point, Path path)
 // The host's picture where the ray meets it, unless that is in front of the water.
 vec3 scene_through(Point point, float s, Path path)
 {
-    const vec2 own = gl_FragCoord.xy, pixel = pixel_of(on_path(point, path, s));
+    const vec2 own = PIXEL_HERE, pixel = pixel_of(on_path(point, path, s));
     const vec2 shifted = own + look.refraction * (pixel - own), inside = inside_view(shifted);
     const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth || below_surface(point, inside) > 0.0;
     const vec4 texels = between_texels(scene_color, behind ? inside : own, textureSize(scene_color, 0));

@@ -1,26 +1,11 @@
-// splat_write.comp - visible surfels become splats: where they are drawn, how large, and with which weight.
-//
-// A surfel is a disc. Where it is smaller in the picture than MIN_PX, or seen from so far aside that its ellipse is
-// narrower, the ellipse is made as large, so that no surfel falls between pixels. Its weight is divided by its area in
-// the picture: the weights of all surfels of a surface add up to 1 in each pixel, whatever their size. At the border of
-// the water the sum falls to 0, and is about 1/2 at the border itself.
-//
-// A splat is three texels:
-//
-//     center x, y, w   clip coordinates
-//     facing           see facing_of and pack_facing
-//     first axis       clip coordinates x, y, w, per radius
-//     weight, push     half floats: weight at its center; how much farther away the depth pass draws it, as a share of
-//                      its distance
-//     second axis      clip coordinates x, y, w, per radius
-//     motion           two half floats, px
-//
+// splat_write.comp - visible surfels become splats, see splats.glsl.
 // One invocation per visible surfel. Reads: the list, surfels. Writes: splats.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "surfels.glsl"
+#include "splats.glsl"
 #define COMPACT_GROUP VIRGA_WATER_LANES
 #define COMPACT_SELECTION_BINDING 4
 #define COMPACT_LIST_BINDING 5
@@ -30,40 +15,13 @@ layout(local_size_x = VIRGA_WATER_LANES) in;
 
 layout(std430, set = 0, binding = 6) writeonly buffer Splats { uvec4 splats[]; };
 
-#define MIN_PX 1.2   // half a width: each pixel's center is in the ellipse of what is less than that away
-#define PUSH 1.5     // radii
-#define MAX_PUSH 20.0 // of what is seen at grazing angles
-
-vec2 motion_of(Surfel s, vec4 now)
-{
-    const vec3 before = s.position - s.velocity * view.frame_interval_s;
-    return motion_px(now, project(to_mat(view.previous_clip_from_rel), before));
-}
-
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= list.count)
         return;
-    const Surfel s = surfel_at(listed[index]);
-    const mat4 clip_from_rel = to_mat(view.clip_from_rel);
-    const vec4 center = project(clip_from_rel, s.position);
-    const vec3 eye = -normalize(s.position);
-    const float cosine = clamp(dot(s.normal, eye), 1e-3, 1.0), sine = sqrt(1.0 - cosine * cosine);
-    const float pixel_m = look.pixel_angle * center.w, radius = look.surfel_scale * s.radius;
-    const vec3 aside = sine > 1e-3 ? normalize(cross(s.normal, eye))
-                                   : normalize(cross(eye, abs(eye.y) < 0.7 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
-    const float wide = max(radius, MIN_PX * pixel_m), narrow = max(radius * cosine, MIN_PX * pixel_m);
-    const vec3 across = cross(eye, aside);
-    const vec3 second = radius * cross(s.normal, aside) + across * (narrow - radius * cosine);
-    // The integral of (1 - r^2)^2 over a disc is a third of its area.
-    const float weight = 3.0 * s.area * cosine / (3.14159265 * wide * narrow);
-    // What was made wider without being tilted lies in front of the surface or behind it by so much.
-    const float off = (narrow - radius * cosine) * sine / cosine;
-    const float push = min(PUSH * wide + off, MAX_PUSH * wide) / length(s.position);
-    const vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
-    const vec2 facing = facing_of(s.normal), motion = motion_of(s, center);
-    splats[3u * index] = uvec4(floatBitsToUint(center.xyw), pack_facing(facing));
-    splats[3u * index + 1u] = uvec4(floatBitsToUint(a), halves(weight, push));
-    splats[3u * index + 2u] = uvec4(floatBitsToUint(b), halves(motion.x, motion.y));
+    const Splat splat = splat_of(surfel_at(listed[index]));
+    splats[3u * index] = splat.one;
+    splats[3u * index + 1u] = splat.two;
+    splats[3u * index + 2u] = splat.three;
 }

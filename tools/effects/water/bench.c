@@ -22,7 +22,7 @@ static const struct row {
 
 /* What a pass is compared with: a bare kernel over the particles, or a fill of the picture. `sum`: what it is part of.
  */
-enum { SURFACE, SPRAY_AND_FOAM, DRAWN, SUMS };
+enum { SURFACE, SPRAY_AND_FOAM, DRAWN, BY_SURFELS, SUMS };
 static const struct pass {
     const char *name;
     int sum;
@@ -32,19 +32,22 @@ static const struct pass {
               {"water.spray", SPRAY_AND_FOAM}, {"water.spray_surfels", SPRAY_AND_FOAM},
               {"water.foam", SPRAY_AND_FOAM},  {"water.thickness", DRAWN},
               {"water.visible", DRAWN},        {"water.splats", DRAWN},
-              {"water.foam_light", DRAWN}};
-static const char *const sums[SUMS] = {"density, surface, normals", "spray and foam", "the picture from them"};
+              {"water.foam_light", DRAWN},     {"water.divide", BY_SURFELS},
+              {"water.parts", BY_SURFELS}};
+static const char *const sums[SUMS] = {"density, surface, normals", "spray and foam", "the picture from them",
+                                       "light by surfels, added"};
 
 enum { PASSES = sizeof passes / sizeof passes[0] };
 
 /* Frames with and without the draws, by their fences: on software Vulkan, timestamps inside a render pass do not see
  * the work of its pixels. */
-enum { UNDRAWN = PASSES, WHOLE, TIMES };
+enum { UNDRAWN = PASSES, WHOLE, SURFELS, TIMES };
 
 typedef struct pool {
     const struct row *row;
     uint32_t count, frame;
     virga_water *water;
+    virga_water_settings settings;
     virga_target *layer;
     host_buffer particles;
     host_image color, depth; /* of the scene around it */
@@ -99,15 +102,17 @@ static bool make_water(bench *b, pool *p)
     def.max_surfels = at_most(4.0 * p->count, 2097152);
     def.max_spray = at_most(p->count / 16.0, 65536);
     def.max_droplets = at_most(p->count, 1048576);
+    def.max_parts = at_most(8.0 * p->count, 1048576);
     def.max_width = bench_sizes[PICTURE][0];
     def.max_height = bench_sizes[PICTURE][1];
     host_target_describe_layer(&b->targets[PICTURE], &layer);
-    virga_water_settings settings = virga_default_water_settings();
-    settings.spacing_m = 1.0f / (float)p->row->side;
-    settings.lighting.environment_sh[0][0] = settings.lighting.environment_sh[0][1] = 1;
-    settings.lighting.environment_sh[0][2] = settings.lighting.environment_sh[1][2] = 1;
+    virga_water_settings *settings = &p->settings;
+    *settings = virga_default_water_settings();
+    settings->spacing_m = 1.0f / (float)p->row->side;
+    settings->lighting.environment_sh[0][0] = settings->lighting.environment_sh[0][1] = 1;
+    settings->lighting.environment_sh[0][2] = settings->lighting.environment_sh[1][2] = 1;
     if (virga_water_create(b->context, &def, &p->water) < 0 || virga_target_create(b->context, &layer, &p->layer) < 0 ||
-        virga_water_attach(p->water, p->layer) < 0 || virga_water_set(p->water, &settings) < 0)
+        virga_water_attach(p->water, p->layer) < 0 || virga_water_set(p->water, settings) < 0)
         return options_complain("bench", "no water of %u particles could be made", p->count);
     return true;
 }
@@ -179,7 +184,7 @@ static virga_image image_of(const host_image *image)
                          .before = {.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
 }
 
-static bool frame(bench *b, pool *p, bool draw, double *whole)
+static bool frame(bench *b, pool *p, bool draw, virga_water_shading shading, double *whole)
 {
     VkCommandBuffer cmd;
     virga_view view;
@@ -188,8 +193,9 @@ static bool frame(bench *b, pool *p, bool draw, double *whole)
     aim(&view);
     view.color = image_of(&p->color);
     view.depth = image_of(&p->depth);
-    if (!bench_begin(b, &cmd) || virga_water_step(p->water, cmd, &info) < 0 ||
-        virga_water_prepare(p->water, cmd, &view) < 0)
+    p->settings.shading = shading;
+    if (virga_water_set(p->water, &p->settings) < 0 || !bench_begin(b, &cmd) ||
+        virga_water_step(p->water, cmd, &info) < 0 || virga_water_prepare(p->water, cmd, &view) < 0)
         return options_complain("bench", "a step failed");
     host_target_begin_layer(&b->targets[PICTURE], cmd);
     const bool drawn = !draw || (virga_water_draw(p->water, cmd, p->layer) == VIRGA_OK &&
@@ -200,14 +206,24 @@ static bool frame(bench *b, pool *p, bool draw, double *whole)
     return good;
 }
 
+/* The passes of the newest frame, either those of light by surfels or all others. */
+static void read_times(bench *b, bool by_surfels, int run, double times[TIMES][BENCH_RUNS])
+{
+    for (int j = 0; j < PASSES; j++)
+        if ((passes[j].sum == BY_SURFELS) == by_surfels)
+            times[j][run] = bench_pass_ms(b, passes[j].name);
+}
+
 static bool time_passes(bench *b, pool *p, double times[TIMES][BENCH_RUNS])
 {
     bool good = true;
     for (int i = -SETTLE; good && i < BENCH_RUNS && !interrupt_requested(); i++) {
         const int run = i < 0 ? 0 : i;
-        good = frame(b, p, false, &times[UNDRAWN][run]) && frame(b, p, true, &times[WHOLE][run]);
-        for (int j = 0; j < PASSES; j++)
-            times[j][run] = bench_pass_ms(b, passes[j].name);
+        good = frame(b, p, false, VIRGA_WATER_SHADING_PIXELS, &times[UNDRAWN][run]) &&
+               frame(b, p, true, VIRGA_WATER_SHADING_PIXELS, &times[WHOLE][run]);
+        read_times(b, false, run, times);
+        good = good && frame(b, p, true, VIRGA_WATER_SHADING_SURFELS, &times[SURFELS][run]);
+        read_times(b, true, run, times);
     }
     return good && !interrupt_requested();
 }
@@ -218,7 +234,7 @@ static void print_times(const pool *p, double times[TIMES][BENCH_RUNS], const be
     for (int j = 0; j < PASSES; j++) {
         const double ms = bench_median(times[j], BENCH_RUNS);
         sum_ms[passes[j].sum] += ms;
-        if (passes[j].sum == DRAWN)
+        if (passes[j].sum >= DRAWN)
             printf("  %-26s %9.3f ms  %6.1f x fill\n", passes[j].name, ms, ms / machine->fill_ms);
         else
             bench_water_print_pass(passes[j].name, ms, machine, p->count);
@@ -230,6 +246,7 @@ static void print_times(const pool *p, double times[TIMES][BENCH_RUNS], const be
     for (int i = 0; i < SUMS; i++)
         printf("  %-26s %9.3f ms\n", sums[i], sum_ms[i]);
     printf("  %-26s %9.3f ms, by its fence\n", "a whole frame", whole);
+    printf("  %-26s %9.3f ms, by its fence\n", "the same, light by surfels", bench_median(times[SURFELS], BENCH_RUNS));
 }
 
 static bool measure(bench *b, const struct row *row)

@@ -1,0 +1,24 @@
+// part.vert - a triangle around the ellipse of a part of a surfel.
+// One invocation per corner. Reads: parts. Writes: the position in the ellipse, in radii.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "gpu/texels.glsl"
+TEXELS(part_texel, 26, 25)
+
+layout(location = 0) out vec2 position;
+layout(location = 1) flat out vec4 color_weight;
+
+void main()
+{
+    const int part = gl_VertexIndex / 3, corner = gl_VertexIndex - 3 * part;
+    const uint texel = uint(VIRGA_WATER_PART_TEXELS * part);
+    const uvec4 one = part_texel(texel), two = part_texel(texel + 1u), three = part_texel(texel + 2u);
+    // The smallest triangle around the unit circle.
+    const vec2 at = corner == 0 ? vec2(0.0, 2.0) : vec2(corner == 1 ? -1.7320508 : 1.7320508, -1.0);
+    const vec3 clip = uintBitsToFloat(one.xyz) + at.x * uintBitsToFloat(two.xyz) + at.y * uintBitsToFloat(three.xyz);
+    position = at;
+    color_weight = vec4(uintBitsToFloat(part_texel(texel + 3u).rgb), unpackHalf2x16(two.w).x);
+    gl_Position = vec4(clip.xy, NEAR_W, clip.z); // as in splat.vert
+}
