@@ -309,6 +309,18 @@ static bool step(shot *s, void *state, VkCommandBuffer cmd, double dt_s, char *e
     return !p->solver.fluid || !s->options.stats || water_read_solver(s, p, cmd, error, error_size);
 }
 
+/* Fills the particles of a step, and keeps in mind where they are. */
+static bool fill_step(shot *s, water_state *p, double time_s, virga_water_step_info *info, char *error,
+                      size_t error_size)
+{
+    if (!water_fill_particles(s, p, time_s, info, error, error_size))
+        return false;
+    p->shown = info->particles;
+    p->shown_offset = info->offset;
+    p->shown_count = info->count < p->max_particles ? info->count : p->max_particles;
+    return true;
+}
+
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
                        char *error, size_t error_size)
 {
@@ -319,7 +331,7 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
         frame->exchange.fluid = p->solver.fluid;
         memcpy(frame->exchange.origin_m, scene_water_of(s->scene)->position_m, sizeof frame->exchange.origin_m);
     }
-    return !p->water || water_fill_particles(s, p, p->frame_s, &frame->water, error, error_size);
+    return !p->water || fill_step(s, p, p->frame_s, &frame->water, error, error_size);
 }
 
 /* ---- picture -------------------------------------------------------------------------------------------------- */
@@ -330,7 +342,7 @@ static bool step_sub_frame(shot *s, water_state *p, VkCommandBuffer cmd, double 
 {
     virga_water_step_info info = {.sub_frame = true};
     return (p->step_frame == s->device.frame && p->time_s == p->frame_s - late_s) ||
-           (water_fill_particles(s, p, p->frame_s - late_s, &info, error, error_size) &&
+           (fill_step(s, p, p->frame_s - late_s, &info, error, error_size) &&
             shot_ok(s, virga_water_step(p->water, cmd, &info), "stepping the water", error, error_size));
 }
 
@@ -510,4 +522,5 @@ const tool_effect water_effect = {
     .bench = &water_bench,
     .title = "Water",
     TOOL_ROWS(count, counts),
+    TOOL_ROWS(view, water_views),
 };

@@ -54,7 +54,14 @@ typedef struct water_state {
     double volume_m3;       /* of all particles of the newest step */
     uint64_t step_frame;    /* device frame of the newest step */
     shot_read surfels, droplets, foam;
+    /* The particles of the newest step, for views. */
+    VkBuffer shown;
+    VkDeviceSize shown_offset;
+    uint32_t shown_count;
 } water_state;
+
+#define WATER_VIEWS 3
+extern const tool_view water_views[WATER_VIEWS];
 
 /* Opens the files of a scene. Reports errors by scene_file_refuse. */
 bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, char *error, size_t error_size);
