@@ -6,7 +6,7 @@
 #include "shaders/water_shaders.h"
 
 #define SUMS   VK_FORMAT_R32G32B32A32_SFLOAT
-#define MOTION VK_FORMAT_R16G16_SFLOAT
+#define MOTION VK_FORMAT_R16G16B16A16_SFLOAT
 #define DEPTH  VK_FORMAT_D32_SFLOAT
 
 /* ---- sizes */
@@ -32,7 +32,7 @@ uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_W
 
 VkDeviceSize water_images_bytes(const virga_water_def *def)
 {
-    const VkDeviceSize each = 16 + 4 + 4 + (def->max_parts ? 16 + 4 : 0);
+    const VkDeviceSize each = 16 + 8 + 4 + (def->max_parts ? 16 + 4 : 0);
     return def->max_views * (VkDeviceSize)def->max_width * def->max_height * each;
 }
 

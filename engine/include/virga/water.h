@@ -21,7 +21,8 @@
  * weights (surface splatting, Zwicker et al. 2001). This gives each pixel a depth and a normal, smooth also where few
  * surfels are. The draw then computes Fresnel's reflection of the environment and of lamps, and what is seen through
  * the water: the ray is refracted and meets the host's scene where the host's depth says so. Absorption follows Beer
- * and Lambert's law, over the thickness that the volumes of all particles along the ray add up to.
+ * and Lambert's law, over the thickness that the volumes of all particles along the ray add up to. Droplets of less
+ * than about a pixel lie over the surface with the coverage that their discs have, and are lit as rain is.
  *
  * Deterministic: the same particles give the same bits, in any order if their ids differ.
  * Thread-safety: as virga/vulkan.h says. */
@@ -74,7 +75,7 @@ typedef struct virga_water_def {
      * are in use no new ones are made, and the statistics say how many are missing. 0: no foam. Default 65536. */
     uint32_t max_foam;
 
-    /* [0; 16384] size in pixels of the images that water is drawn from; 26 bytes for each pixel, and 53 bytes for each
+    /* [0; 16384] size in pixels of the images that water is drawn from; 30 bytes for each pixel, and 53 bytes for each
      * surfel. Larger views are drawn at this resolution. Default 1920 x 1080. If one is 0, the water can not be drawn,
      * and nothing is allocated for it. */
     uint32_t max_width, max_height;
@@ -84,7 +85,7 @@ typedef struct virga_water_def {
      * whole. 0: there is no such shading. Default 0. */
     uint32_t max_parts;
 
-    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs 24
+    /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs 28
      * bytes per pixel of max_width x max_height. Default 1. */
     uint32_t max_views;
 } virga_water_def;
@@ -161,9 +162,9 @@ typedef struct virga_water_settings {
     /* How spray is made. Default physical. */
     virga_water_style style;
 
-    /* [0; 0.9] particles with less density than this are splash particles: they leave the surface and become droplets.
-     * 0: there are none. With kernel_spacings 2 and volume_m3 0, a particle all alone has the density 0.196, and those
-     * of a flat surface have 0.7. Default 0.35. */
+    /* [0; 0.9] particles with less density than this are splash particles: they leave the surface and become droplets;
+     * in the physical style by degrees, from 1.15 to 0.85 of it. 0: there are none. With kernel_spacings 2 and
+     * volume_m3 0, a particle all alone has the density 0.196, and those of a flat surface have 0.7. Default 0.35. */
     float spray_density;
 
     /* [1; 32] droplets that a splash particle becomes at most: V of equation 3. Default 25, as in the paper. */

@@ -20,5 +20,6 @@ void main()
     const vec3 clip = uintBitsToFloat(one.xyz) + at.x * uintBitsToFloat(two.xyz) + at.y * uintBitsToFloat(three.xyz);
     position = at;
     color_weight = vec4(uintBitsToFloat(part_texel(texel + 3u).rgb), unpackHalf2x16(two.w).x);
-    gl_Position = vec4(clip.xy, NEAR_W, clip.z); // as in splat.vert
+    // As in splat.vert. Specks have no color of their own.
+    gl_Position = color_weight.w < 0.0 ? DRAWN_NOWHERE : vec4(clip.xy, NEAR_W, clip.z);
 }

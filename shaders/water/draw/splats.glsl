@@ -10,14 +10,19 @@
 //     center x, y, w   clip coordinates
 //     facing           see facing_of and pack_facing
 //     first axis       clip coordinates x, y, w, per radius
-//     weight, push     half floats: weight at its center; how much farther away the depth pass draws it, as a share of
-//                      its distance
+//     weight           half float: at its center; negative for specks (specks.glsl)
+//     push, scale      see pack_push_scale
 //     second axis      clip coordinates x, y, w, per radius
 //     motion           two half floats, px
 //
 // The includer includes surfels.glsl.
 
+#define SPECK_PX 1.0 // droplets of this radius and below are specks
+#define NO_SPECK_PX 2.5 // in between, some of their surfels are
 #define MIN_PX 1.2   // half a width: each pixel's center is in the ellipse of what is less than that away
+#define RIM_PX 1.0
+#define DROPLET_RIM 0.45 // see depth_scale; radii
+#define MIN_ROOM_PX 0.3
 #define PUSH 1.5     // radii
 #define MAX_PUSH 20.0 // of what is seen at grazing angles
 
@@ -25,6 +30,22 @@ vec2 motion_of(Surfel s, vec4 now)
 {
     const vec3 before = s.position - s.velocity * view.frame_interval_s;
     return motion_px(now, project(to_mat(view.previous_clip_from_rel), before));
+}
+
+// Factor of the size in the depth pass; 0: it is not drawn there. What is not drawn there hides nothing: other water
+// behind it is added to it. So it may reach only where the water in front is whole, else a ring around it would let the
+// scene through. A splat ends before its surfel does, without what makes it wider; far away, where that leaves
+// nothing, it is as wide as pixels need it. Of a droplet it is the inner part alone, as few surfels leave gaps in its
+// rim, and specks hide nothing.
+float depth_scale(Surfel s, float cosine, vec2 size_px, float radius_px, float droplet_px, bool is_speck)
+{
+    float room = radius_px * cosine - RIM_PX;
+    if (s.droplet > 0.0)
+        room = min(room, droplet_px * (1.0 - DROPLET_RIM - sqrt(1.0 - cosine * cosine)) - 1.0);
+    const float near_scale = room < MIN_ROOM_PX ? 0.0 : min(room / size_px.y, 1.0);
+    if (s.droplet > 0.0)
+        return is_speck ? 0.0 : near_scale;
+    return mix(0.7, near_scale, smoothstep(MIN_PX, 2.0 * MIN_PX, radius_px));
 }
 
 // The three texels of a splat.
@@ -50,8 +71,13 @@ Splat splat_of(Surfel s)
     const float off = (narrow - radius * cosine) * sine / cosine;
     const float push = min(PUSH * wide + off, MAX_PUSH * wide) / length(s.position);
     const vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
+    const float droplet_px = s.droplet / pixel_m;
+    const bool is_speck = s.droplet > 0.0 && s.turn < 1.0 - smoothstep(SPECK_PX, NO_SPECK_PX, droplet_px);
+    const float scale = depth_scale(s, cosine, vec2(wide, narrow) / pixel_m, radius / pixel_m, droplet_px,
+                                    is_speck);
     const vec2 facing = facing_of(s.normal), motion = motion_of(s, center);
     return Splat(uvec4(floatBitsToUint(center.xyw), pack_facing(facing)),
-                 uvec4(floatBitsToUint(a), halves(weight, push)),
+                 uvec4(floatBitsToUint(a), (halves(is_speck ? -weight : weight, 0.0) & 0xffffu) |
+                                               pack_push_scale(vec2(push, scale))),
                  uvec4(floatBitsToUint(b), halves(motion.x, motion.y)));
 }

@@ -18,6 +18,8 @@ vec4 between_texels(sampler2D image, vec2 at, ivec2 size)
                share.y);
 }
 
+#define WHOLE 0.9 // from this sum of weights on a pixel is covered
+
 // Position in the effect's images.
 vec2 image_pixel(vec2 pixel) { return (pixel - vec2(view.viewport[0], view.viewport[1])) * look.scale; }
 
@@ -25,6 +27,21 @@ vec4 sums_at(vec2 at)
 {
     return SCALED ? between_texels(sums_image, at, ivec2(look.width, look.height))
                   : texelFetch(sums_image, ivec2(at), 0);
+}
+
+float weight_at(ivec2 texel) { return texel_of(sums_image, texel, ivec2(look.width, look.height)).w; }
+
+// The sum of weights at a position, or that of two opposite neighbours, up to two pixels away, if it is less than both.
+// Surfels are not spread evenly: where one surface ends before another, a pixel or two may get little of both.
+float closed_weight(vec2 at, float weight)
+{
+    const ivec2 texel = ivec2(at);
+    float closed = weight;
+    for (int i = 0; i < 8 && weight < WHOLE; i++) {
+        const ivec2 aside = (1 + (i >> 2)) * ((i & 3) == 3 ? ivec2(1, -1) : ivec2((i & 3) != 1, (i & 3) != 0));
+        closed = max(closed, min(weight_at(texel + aside), weight_at(texel - aside)));
+    }
+    return closed;
 }
 
 float thickness_at(vec2 at)
@@ -48,8 +65,8 @@ vec3 seen_normal(vec3 normal, vec3 incident)
 // How much of the pixel is covered. The sum of weights is about 1 inside the water, and falls to 0 at its border. For
 // large surfels it falls over many pixels; where it is 1/2, the border is drawn as wide as a pixel. For small ones it
 // falls within a pixel or two. Then the sum is the coverage, but for its noise: it may not let the scene through where
-// it is a little below 1. What is much smaller than a pixel keeps half of its coverage. `slope`: change of the sum from
-// a pixel to the next.
+// it is a little below 1. Sheets that are much thinner than a pixel keep half of their coverage. `slope`: change of the
+// sum from a pixel to the next.
 float coverage_of(float weight, float slope, float depth)
 {
     const float radius_px = look.surfel_scale * look.surfel_m / (look.pixel_angle * depth);

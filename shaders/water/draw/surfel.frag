@@ -6,11 +6,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_DEPTH or 0
+#define HAS_DEPTH (LOOK != 0u)
 #define SCENE_DEPTH_BINDING 17
 #include "gpu/scene_depth.glsl"
+#include "gpu/light.glsl"
 #include "gpu/temporal.glsl"
 #define SCALED (look.scale < 1.0)
 #include "surface.glsl"
+#include "specks.glsl"
 #include "gpu/encode.glsl"
 
 layout(set = 0, binding = 27) uniform sampler2D color_image;
@@ -24,16 +27,19 @@ void main()
     const vec4 sums = sums_at(at);
     const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
-    float covered = sums.w > 1e-4 ? coverage_of(sums.w, slope, depth) : 0.0;
-    if (LOOK != 0u)
+    const vec4 moved = motion_sums_at(at);
+    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w) + moved.z, slope, depth) : 0.0;
+    if (HAS_DEPTH)
         covered *= soft_edge(depth);
     const vec4 color = SCALED ? between_texels(color_image, at, size) : texelFetch(color_image, ivec2(at), 0);
-    if (covered <= 0.0 || color.w <= 1e-9)
+    if (color.w <= 1e-9)
+        covered = 0.0;
+    const Specks specks = specks_of(moved, pixel_ray(gl_FragCoord.xy));
+    if (covered + specks.covered <= 0.0)
         discard;
-    radiance = for_target(vec4(max(color.rgb / color.w, vec3(0.0)) * covered, covered));
-    gl_FragDepth = clamp(view.depth_b / depth - view.depth_a, 0.0, 1.0);
-    WRITE_REACTIVE(covered, view.reactive_gain);
-#ifdef MOTION
-    WRITE_MOTION(texelFetch(motion_image, ivec2(at), 0).xy / max(sums.w, 1e-12), covered);
-#endif
+    const vec4 light = specks_over(specks, vec4(max(color.rgb / max(color.w, 1e-9), vec3(0.0)), 1.0) * covered);
+    radiance = for_target(light);
+    gl_FragDepth = clamp(view.depth_b / (covered > 0.0 ? depth : specks.depth) - view.depth_a, 0.0, 1.0);
+    WRITE_REACTIVE(light.a, view.reactive_gain);
+    WRITE_MOTION(moved.xy / max(sums.w + moved.z, 1e-12), light.a);
 }

@@ -11,6 +11,8 @@ struct Surfel {
     vec3 velocity;
     float radius;
     float area; // of the surface that it stands for
+    float droplet; // radius of its droplet; 0: it is of the surface
+    float turn;    // of those of a droplet: which ones become specks first, see splats.glsl
 };
 
 // Surfels are made where the surface crosses edges of a grid, so there are |x| + |y| + |z| of them for each square of
@@ -36,6 +38,10 @@ Surfel surfel_at(uint index)
     s.position = uintBitsToFloat(one.xyz) + to_vec(view.origin_offset);
     s.normal = unpack_octahedron(one.w);
     s.radius = uintBitsToFloat(two.w);
-    s.area = index < state.first_spray_surfel ? share_of_surface(s.radius, s.normal) : share_of_droplet(s.radius);
+    const bool of_surface = index < state.first_spray_surfel;
+    s.area = of_surface ? share_of_surface(s.radius, s.normal) : share_of_droplet(s.radius);
+    s.droplet = of_surface ? 0.0 : s.radius / VIRGA_WATER_DROPLET_SURFEL;
+    s.turn = (float((index - state.first_spray_surfel) % VIRGA_WATER_DROPLET_SURFELS) + 0.5) /
+             float(VIRGA_WATER_DROPLET_SURFELS);
     return s;
 }

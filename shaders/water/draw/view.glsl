@@ -30,6 +30,19 @@ vec2 facing_of(vec3 normal)
 uint pack_facing(vec2 facing) { return packSnorm2x16(0.5 * facing); }
 vec2 unpack_facing(uint packed) { return 2.0 * unpackSnorm2x16(packed); }
 
+// What the depth pass does to a splat, in the high half of a word: how much farther away it is drawn, [0; 4] as a share
+// of its distance, and a factor of its size, [0; 1].
+uint pack_push_scale(vec2 push_scale)
+{
+    const vec2 bytes = ceil(255.0 * clamp(vec2(0.5 * sqrt(push_scale.x), push_scale.y), vec2(0.0), vec2(1.0)));
+    return uint(bytes.x) << 16 | uint(bytes.y) << 24;
+}
+vec2 unpack_push_scale(uint packed)
+{
+    const float root = float(packed >> 16 & 255u) * (2.0 / 255.0);
+    return vec2(root * root, float(packed >> 24) / 255.0);
+}
+
 vec3 normal_of(vec2 facing)
 {
     const float s = dot(facing, facing);

@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
 #include "gpu/temporal.glsl"
 #include "surface.glsl"
 #include "light.glsl"
+#include "specks.glsl"
 #include "gpu/encode.glsl"
 
 layout(location = 0) out vec4 radiance;
@@ -25,12 +26,14 @@ void main()
     const vec4 sums = sums_at(at);
     const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
-    float covered = sums.w > 1e-4 ? coverage_of(sums.w, slope, depth) : 0.0;
+    const vec4 moved = motion_sums_at(at);
+    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w) + moved.z, slope, depth) : 0.0;
     if (HAS_DEPTH)
         covered *= soft_edge(depth);
     const vec3 ray = pixel_ray(gl_FragCoord.xy), normal = normal_of(sums.xy / max(sums.w, 1e-12));
     const vec3 bend_x = dFdx(normal), bend_y = dFdy(normal);
-    if (covered <= 0.0)
+    const Specks specks = specks_of(moved, ray);
+    if (covered + specks.covered <= 0.0)
         discard;
     Point point;
     point.depth = depth;
@@ -39,11 +42,9 @@ void main()
     point.normal = seen_normal(normal, point.incident);
     point.spread = 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
     point.thickness = thickness_at(at);
-    radiance = for_target(vec4(light_of(point) * covered, covered));
-    gl_FragDepth = clamp(view.depth_b / depth - view.depth_a, 0.0, 1.0);
-    WRITE_REACTIVE(covered, view.reactive_gain);
-#ifdef MOTION
-    const vec2 moved = texelFetch(motion_image, ivec2(at), 0).xy / max(sums.w, 1e-12);
-    WRITE_MOTION(moved, covered);
-#endif
+    const vec4 light = specks_over(specks, covered > 0.0 ? vec4(light_of(point) * covered, covered) : vec4(0.0));
+    radiance = for_target(light);
+    gl_FragDepth = clamp(view.depth_b / (covered > 0.0 ? depth : specks.depth) - view.depth_a, 0.0, 1.0);
+    WRITE_REACTIVE(light.a, view.reactive_gain);
+    WRITE_MOTION(moved.xy / max(sums.w + moved.z, 1e-12), light.a);
 }
