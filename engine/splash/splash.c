@@ -192,6 +192,7 @@ static const virga_effect_pass passes[] = {
     STEP(adopt),
     STEP(adopt_end),
     STEP(rebase),
+    STEP(alive),
     DRAW(indices),
     DRAW(few_mark, .forms = SPLASH_STYLES),
     DRAW(droplet_mark, .forms = SPLASH_STYLES),

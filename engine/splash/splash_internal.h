@@ -104,8 +104,8 @@ struct virga_splash {
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
     virga_bindings *bindings, *recall_bindings, *hits_bindings;
-    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices, *recall, *adopt, *adopt_end,
-        *give_hits;
+    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *alive, *indices, *recall, *adopt,
+        *adopt_end, *give_hits;
     virga_pipeline *view_scan, *view_compact;
     virga_pipeline *few_mark[SPLASH_STYLES], *droplet_mark[SPLASH_STYLES], *splash_mark[SPLASH_STYLES];
     virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];

@@ -35,7 +35,8 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->spray_returned_nl = count_of(state, VIRGA_SPLASH_SPRAY_RETURNED);
     stats->spray_panes_nl = count_of(state, VIRGA_SPLASH_SPRAY_PANES);
     stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
-    stats->splashes_alive = state->end_splash - state->first_splash;
+    stats->splashes_cut_short = count_of(state, VIRGA_SPLASH_CUT_SHORT);
+    stats->splashes_alive = state->alive;
     stats->droplets_alive = state->staying;
 }
 
@@ -200,6 +201,8 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     follow(splash, cmd, info);
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(splash, cmd, info, i);
+    if (info->ticks)
+        over(splash, cmd, splash->alive, offsetof(virga_splash_state_gpu, splash_groups));
     splash_spray_record(splash, cmd, info);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_STEP, splash->state, 0,
                                  offsetof(splash_readback, state), sizeof(virga_splash_state_gpu));

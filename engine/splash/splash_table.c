@@ -139,9 +139,11 @@ static void fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 {
     const virga_splash_settings *settings = &splash->settings;
     const float degree = 0.0174532925f;
-    /* A splash lives about a tenth of a second. Disks live longer, but only on dry ground. There are dots too. */
+    /* A splash lives about a tenth of a second, and that of the last piece of an impact begins half a second after it.
+     * Disks live longer, but only on dry ground. */
+    const double longest_s = 0.15 + VIRGA_GROUND_PIECE_S * VIRGA_GROUND_MAX_PIECES;
     rules->mode = (uint32_t)settings->mode;
-    rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.25);
+    rules->quota = (float)(0.95 * splash->def.max_splashes * splash->def.tick_s / longest_s);
     rules->droplet_range_m = fmaxf(settings->droplet_range_m, 1e-3f);
     rules->dot_min_m = settings->dot_min_mm * 1e-3f;
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS * VIRGA_GROUND_STATES; i++) {

@@ -58,7 +58,7 @@ void write_spawn(uint index, virga_impact_gpu impact, Piece piece, uint i, Spawn
                        vec3(spawns_head.origin[0], spawns_head.origin[1], spawns_head.origin[2]);
     const vec3 position = plan.position + moved;
     spawn.position = float[3](position.x, position.y, position.z);
-    spawn.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, plan.hash);
+    spawn.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, i, plan.hash);
     spawn.velocity = impact.velocity;
     spawn.diameter_m = impact.diameter_m;
     spawn.normal = impact.normal;

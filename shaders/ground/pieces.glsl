@@ -53,7 +53,6 @@ uint piece_count(virga_impact_gpu impact)
 
 #define FIRST_HASH 128u // first hash number for what a piece starts: its splash, its ring
 #define MAX_SCATTERED (VIRGA_GROUND_SCATTER_M / VIRGA_GROUND_DROP_M * VIRGA_GROUND_SCATTER_M / VIRGA_GROUND_DROP_M)
-#define PIECES_DELAY_S 0.1 // time in which the pieces of an impact that stands for several drops fall
 
 uint piece_hash(virga_impact_gpu impact, uint i)
 {
@@ -62,11 +61,12 @@ uint piece_hash(virga_impact_gpu impact, uint i)
     return virga_hash4(tick.seed, own, impact.tick, FIRST_HASH + i);
 }
 
-// The drops that an impact stands for do not fall at one instant: ticks from the impact to the splash and ring of a
-// piece.
-float delay_ticks(virga_impact_gpu impact, uint hash)
+// The drops that an impact stands for do not fall at one instant: ticks from the impact to the splash and ring of piece
+// i, one of them in each span of VIRGA_GROUND_PIECE_S.
+float delay_ticks(virga_impact_gpu impact, uint i, uint hash)
 {
-    return impact.weight > 1.0 ? PIECES_DELAY_S * virga_unit(virga_hash2(hash, 3u)) / tick.tick_s : 0.0;
+    const float spans = float(i) + virga_unit(virga_hash2(hash, 3u));
+    return impact.weight > 1.0 ? VIRGA_GROUND_PIECE_S * spans / tick.tick_s : 0.0;
 }
 
 // In cells from the window's low corner. That corner is far from the origin, so it is given as two floats.

@@ -79,7 +79,8 @@ RingCounts count_below(float bar)
 float find_bar()
 {
     // So that living rings and those still to fall never exceed the ring slots.
-    const float quota = 0.95 * float(VIRGA_MAX_RINGS) * tick.tick_s / (VIRGA_RING_TIME_S + PIECES_DELAY_S);
+    const float longest_s = VIRGA_RING_TIME_S + VIRGA_GROUND_PIECE_S * float(VIRGA_GROUND_MAX_PIECES);
+    const float quota = 0.95 * float(VIRGA_MAX_RINGS) * tick.tick_s / longest_s;
     const RingCounts all = count_below(1e30);
     if (all.pieces <= quota)
         return 0.0;
@@ -136,7 +137,7 @@ void start_ring(uint ring_index, uint index, uint i, float chance)
     ring.cell = int[2](piece.cell.x, piece.cell.y);
     ring.in_cell = float[2](piece.in_cell.x, piece.in_cell.y);
     ring.tick = impact.tick;
-    ring.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, piece_hash(impact, i));
+    ring.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, i, piece_hash(impact, i));
     ring.crater_m =
         water_m < MIN_WATER_M ? 0.0 : crater_depth(impact.diameter_m, water_m) * sqrt(drops_of_piece(index) / chance);
     ring.depth_m = water_m;

@@ -18,10 +18,12 @@ layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landin
 shared uint filled;
 
 // The radius within which all drops splash follows the quota; the number of splashes beyond it grows with its square
-// too.
+// too. Near the quota it follows slowly: one that answers to the chance of each tick would double its variance.
 float next_near(float near_m, float found)
 {
-    const float wanted = near_m * sqrt(clamp(rules.quota / max(found, 1.0), 0.8, 1.1));
+    const float ratio = rules.quota / max(found, 1.0);
+    const float gain = mix(0.1, 1.0, smoothstep(0.2, 0.7, abs(log(ratio))));
+    const float wanted = near_m * sqrt(clamp(pow(ratio, gain), 0.8, 1.1));
     return clamp(wanted, MIN_NEAR_M, MAX_NEAR_M);
 }
 
@@ -65,6 +67,9 @@ void main()
         spawns_head.origin = head.origin;
         // land.comp uses the radius that spawn_mark.comp decided with.
         spawns_head.near_of_tick_m = spawns_head.near_m;
-        spawns_head.near_m = next_near(spawns_head.near_m, float(found));
+        spawns_head.drops_of_tick = found;
     }
+    // Those of droplets that fall back count too.
+    const float spawned = float(found) + (head.is_return == 0u ? 0.0 : float(spawns_head.drops_of_tick));
+    spawns_head.near_m = next_near(spawns_head.near_of_tick_m, spawned);
 }

@@ -15,7 +15,10 @@
 #define VIRGA_GROUND_MAX_PIECES 32
 #define VIRGA_GROUND_SCATTER_M  2.0  /* m, max distance of the pieces from the impact */
 #define VIRGA_GROUND_DROP_M     0.09 /* m, radius of the disk that each represented drop covers */
-#define VIRGA_GROUND_CROWNS_M   2.0  /* m, max distance from a splash of the crowns drawn for it */
+/* s, time between the pieces of an impact. Drops that an impact stands for fall one after the other, so that splashes
+ * and rings come as those of single drops do: as many in a tick as in a Poisson process, not in batches. */
+#define VIRGA_GROUND_PIECE_S  0.0167
+#define VIRGA_GROUND_CROWNS_M 2.0 /* m, max distance from a splash of the crowns drawn for it */
 
 /* Ring waves on puddles: the table of waves, and how many rings are drawn individually. */
 #define VIRGA_RING_DEPTHS     8 /* water depths in the table; a ring uses the nearest */
@@ -29,7 +32,8 @@
  * shortest waves. */
 #define VIRGA_RING_START_M   0.02
 #define VIRGA_RING_FRONT_M_S 0.45
-#define VIRGA_MAX_RINGS      3072 /* live at once; if more drops fall, a random choice of them gets rings */
+/* live or still to come at once; if more drops fall, a random choice of them gets rings */
+#define VIRGA_MAX_RINGS 6144
 
 /* The states of a cell, as in sections 2.1 and 4.6 of Mizukami et al. */
 #define VIRGA_GROUND_NONE      0 /* no ground */

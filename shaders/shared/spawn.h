@@ -45,7 +45,8 @@ struct virga_spawns_gpu {
     uint first_tick;      /* the first tick of the spawns */
     uint ticks;           /* number of ticks */
     float near_of_tick_m; /* near_m as used in the newest tick */
-    uint pad[2];
+    uint drops_of_tick;   /* drops, or pieces of them, that splash in the newest tick */
+    uint pad;
 };
 
 #ifndef VIRGA_GLSL

@@ -101,8 +101,9 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_SPRAY_BACK     6
 #define VIRGA_SPLASH_SPRAY_RETURNED 7
 #define VIRGA_SPLASH_SPRAY_PANES    8
-#define VIRGA_SPLASH_BY_MODEL       9
-#define VIRGA_SPLASH_COUNTS         169
+#define VIRGA_SPLASH_CUT_SHORT      9 /* splashes that newer ones replaced before their end */
+#define VIRGA_SPLASH_BY_MODEL       10
+#define VIRGA_SPLASH_COUNTS         170
 
 /* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
@@ -120,7 +121,7 @@ struct virga_splash_state_gpu {
     /* workgroups of a dispatch over all droplets of this tick; 0: few droplets, the prefix sum pass has moved them */
     uint droplet_groups[3];
     uint splash_groups[3];
-    uint pad;
+    uint alive; /* splashes that have begun and are not over, at the end of the step */
     /* of the passes that start splashes and store landed droplets; 0: the prefix sum pass has done so */
     uint spawn_groups[3];
     uint fall_groups[3];
@@ -130,7 +131,7 @@ struct virga_splash_state_gpu {
     /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
     uint sprite_groups[3];
     uint view_groups[3]; /* the same, over droplets only */
-    virga_splash_count_gpu counts[169];
+    virga_splash_count_gpu counts[170];
 };
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */

@@ -1,6 +1,8 @@
 /* shot_state.c - functions on a shot for the effects: errors, cameras, and points that are read back. */
 #include "shot_state.h"
 
+#include "ground.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,9 +25,14 @@ double shot_time(const shot *s, uint32_t frame)
     return (double)(frame - s->scene->frames.first) / s->scene->frames.fps;
 }
 
+#define WARM_S 1.0 /* an impact's last splash comes half a second after it, and takes 0.15 s */
+
 double shot_preroll_s(const shot *s)
 {
-    return round(s->scene->frames.preroll_s * s->scene->frames.fps) / s->scene->frames.fps;
+    const scene_frames *frames = &s->scene->frames;
+    const scene_ground *ground = scene_ground_of(s->scene);
+    const bool warm = frames->warm_start && ground->on && (ground->start_wetness > 0 || ground->start_water_mm > 0);
+    return round(fmax(frames->preroll_s, warm ? WARM_S : 0) * frames->fps) / frames->fps;
 }
 
 host_camera_path shot_eye(const shot *s)

@@ -274,6 +274,7 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "droplets", now.droplets);
     jsonl_uint64(stats, "fallen", now.fallen);
     jsonl_uint64(stats, "splashes_without_droplets", now.splashes_without_droplets);
+    jsonl_uint64(stats, "splashes_cut_short", now.splashes_cut_short);
     jsonl_uint64(stats, "sprites", now.sprites);
     write_spray(&now, stats);
     jsonl_end(stats);

@@ -98,6 +98,8 @@ static const scene_row frames_rows[] = {
     WHOLE(scene_frames, size, 16, 16384, "[1280, 720]", RESTARTS, "pixels of the picture"),
     NUMBER(scene_frames, preroll_s, 0, 3600, "0", RESTARTS,
            "rain falls so long before the first frame, so that a shot begins wet"),
+    SWITCH(scene_frames, warm_start, "true", RESTARTS,
+           "on ground that is wet from the start, it has rained for a second: the first frame has splashes and rings"),
 };
 static const scene_group frames_group = SCENE_GROUP(scene_frames, frames_rows);
 

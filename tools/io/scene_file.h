@@ -92,6 +92,7 @@ typedef struct scene_frames {
     double shutter_deg;
     uint32_t size[2];
     double preroll_s; /* length of the rain before the first frame, rounded to whole frames */
+    bool warm_start;  /* at least a second of it, on ground that is wet from the start */
 } scene_frames;
 
 typedef struct scene_preview {

@@ -339,11 +339,14 @@ typedef struct virga_splash_stats {
      * fell back, that fell on the ground or beside it, and that hit panes. What is left is in the air. */
     uint64_t spray_nl, spray_back_nl, spray_returned_nl, spray_panes_nl;
 
-    /* At the newest tick. splashes_alive: slots from the oldest live splash on. */
+    /* At the end of the newest tick: splashes that have begun and are not over, and droplets in the air. */
     uint32_t splashes_alive, droplets_alive;
 
     /* Splashes that found no room for their droplets (or had none, behind one that found no room). */
     uint64_t splashes_without_droplets;
+
+    /* Splashes that newer ones replaced before their end, because def.max_splashes was full. */
+    uint64_t splashes_cut_short;
 
     /* Of the newest prepare. */
     uint32_t sprites;

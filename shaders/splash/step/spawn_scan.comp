@@ -17,7 +17,12 @@
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
-shared uint full_rank, droplets_at_full, expired;
+shared uint full_rank, droplets_at_full, expired, cut_short;
+
+bool is_over(virga_splash_gpu splash)
+{
+    return (float(tick.tick - splash.tick) - splash.share) * tick.tick_s > splash.life_s;
+}
 
 // Releases the oldest splashes that are over. Returns the first that is not.
 uint forget_splashes(uint lane)
@@ -29,10 +34,8 @@ uint forget_splashes(uint lane)
         barrier();
         const uint index = first + lane;
         bool live = index - first >= state.end_splash - first;
-        if (!live) {
-            const virga_splash_gpu splash = splash_of(index & (tick.max_splashes - 1u));
-            live = (float(tick.tick - splash.tick) - splash.share) * tick.tick_s <= splash.life_s;
-        }
+        if (!live)
+            live = !is_over(splash_of(index & (tick.max_splashes - 1u)));
         if (live)
             atomicMin(expired, lane);
         barrier();
@@ -43,6 +46,20 @@ uint forget_splashes(uint lane)
             break;
     }
     return first;
+}
+
+// Of the splashes from `first` to `end`, which newer ones replace: how many were not over.
+void count_cut_short(uint lane, uint first, uint end)
+{
+    if (lane == 0u)
+        cut_short = 0u;
+    barrier();
+    for (uint i = lane; i < min(end - first, tick.max_splashes); i += VIRGA_SPLASH_LANES)
+        if (!is_over(splash_of((first + i) & (tick.max_splashes - 1u))))
+            atomicAdd(cut_short, 1u);
+    barrier();
+    if (lane == 0u)
+        count(VIRGA_SPLASH_CUT_SHORT, cut_short);
 }
 
 void main()
@@ -82,8 +99,11 @@ void main()
             droplets_at_full = first_droplet(spawn_ranks[i].y); // at most one invocation
     barrier();
     const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
-    if (end_after - (first_splash & ~block) > tick.max_splashes)
+    if (end_after - (first_splash & ~block) > tick.max_splashes) {
+        const uint oldest = first_splash;
         first_splash = (end_after - tick.max_splashes + block) & ~block;
+        count_cut_short(lane, oldest, min(first_splash - oldest, end_splash - oldest) + oldest);
+    }
     const bool few = all <= VIRGA_SPLASH_LANES;
     if (few && lane < all && spawns[lane].tick == tick.tick)
         start_splash(spawns[lane], spawn_ranks[lane],
@@ -102,6 +122,7 @@ void main()
     state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
     state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_SINGLE_GROUP_DROPLETS ? 0u : droplets);
     state.splash_groups = ring_groups(first_splash, end_after);
+    state.alive = 0u;
     count(VIRGA_SPLASH_WITHOUT_DROPLETS, crowded);
     count(VIRGA_SPLASH_DROPLETS, droplets_at_full);
 }
