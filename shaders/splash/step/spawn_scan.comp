@@ -62,6 +62,17 @@ void count_cut_short(uint lane, uint first, uint end)
         count(VIRGA_SPLASH_CUT_SHORT, cut_short);
 }
 
+// The first splash that is kept when there are splashes up to `end_after`.
+uint make_room(uint lane, uint first, uint end, uint end_after)
+{
+    const uint block = uint(VIRGA_SPLASH_BLOCK - 1);
+    if (end_after - (first & ~block) <= tick.max_splashes)
+        return first;
+    const uint kept = (end_after - tick.max_splashes + block) & ~block;
+    count_cut_short(lane, first, first + min(kept - first, end - first));
+    return kept;
+}
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = spawn_count();
@@ -98,12 +109,8 @@ void main()
         if (spawns[i].tick == tick.tick && spawn_ranks[i].x == full_rank)
             droplets_at_full = first_droplet(spawn_ranks[i].y); // at most one invocation
     barrier();
-    const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
-    if (end_after - (first_splash & ~block) > tick.max_splashes) {
-        const uint oldest = first_splash;
-        first_splash = (end_after - tick.max_splashes + block) & ~block;
-        count_cut_short(lane, oldest, min(first_splash - oldest, end_splash - oldest) + oldest);
-    }
+    const uint end_after = end_splash + found.x;
+    first_splash = make_room(lane, first_splash, end_splash, end_after);
     const bool few = all <= VIRGA_SPLASH_LANES;
     if (few && lane < all && spawns[lane].tick == tick.tick)
         start_splash(spawns[lane], spawn_ranks[lane],
