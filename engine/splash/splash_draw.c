@@ -55,7 +55,8 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
                                         .lines = splash->base.context->lines,
                                         .motion = virga_effect_wants_motion(&splash->base),
-                                        .handed = handedness(out->view.clip_from_rel)};
+                                        .handed = handedness(out->view.clip_from_rel),
+                                        .parts_px = settings->parts_px};
 }
 
 /* Lists the visible sprites and sheets. Both lists are made in the same passes. */

@@ -145,9 +145,10 @@ struct virga_splash_look_gpu {
     uint max_sprites;
     uint max_crowns;
     uint physical;
-    uint lines;   /* 1: the thinnest droplets are drawn as lines */
-    uint motion;  /* 1: motion vectors are written after the sprites, one vec4 each: of head and tail (px) */
-    float handed; /* 1, or -1 if the picture is mirrored: the winding of front faces */
+    uint lines;     /* 1: the thinnest droplets are drawn as lines */
+    uint motion;    /* 1: motion vectors are written after the sprites, one vec4 each: of head and tail (px) */
+    float handed;   /* 1, or -1 if the picture is mirrored: the winding of front faces */
+    float parts_px; /* min half width of a puff that shows its parts */
 };
 
 /* A sprite: a long, thin shape in the picture, 64 bytes. It is a droplet in motion, a pile, or a distant splash (puff).
@@ -166,7 +167,9 @@ struct virga_sprite_gpu {
     /* (pile) fraction of its length that is solid all of the time; (puff) height of each puff as a fraction of the
      * sprite's path. Then columns + 32 x rows of puffs. */
     uint shares;
-    uint id; /* (puff) low ten bits of the id, then the elapsed fraction of its life, in units of 1 / 1023 */
+    /* (puff) a random number of ten bits; the elapsed fraction of its life, in units of 1 / 1023; and the radius of its
+     * ring over that of the droplets around it, in units of 1 / 255 */
+    uint id;
 };
 
 #define VIRGA_SPRITE_DROPLET 0
@@ -201,7 +204,7 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_PYRAMIDS 10
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 52);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 132 + 64 * VIRGA_SPLASH_PANES);

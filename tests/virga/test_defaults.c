@@ -64,6 +64,7 @@ static void splashes(void **state)
     SAME(light_gain);
     SAME(min_width_px);
     SAME(soft_m);
+    SAME(parts_px);
     SAME(near_fade_m);
     scene_file_free(scene);
 }

@@ -41,6 +41,8 @@ static const scene_row splash_rows[] = {
     NUMBER(scene_splash, light_gain, 0, 100, "1", LIVE, "multiplies the light of lamps in splashes"),
     NUMBER(scene_splash, min_width_px, 0.5, 4, "1", LIVE, "narrower things are drawn this wide with less coverage"),
     NUMBER(scene_splash, soft_m, 0, 1, "0.002", LIVE, "splashes fade over this depth where they meet geometry"),
+    NUMBER(scene_splash, parts_px, 0.5, 10000, "1.3", LIVE,
+           "small splashes at least this wide, from the middle, show ring and droplets; smaller ones are spots"),
     NUMBER(scene_splash, near_fade_m, 0, 5, "0.05", LIVE, "what is nearer to the camera fades out"),
 };
 static const scene_group splash_group = SCENE_GROUP(scene_splash, splash_rows);
@@ -129,6 +131,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.light_gain = (float)from->light_gain;
     settings.min_width_px = (float)from->min_width_px;
     settings.soft_m = (float)from->soft_m;
+    settings.parts_px = (float)from->parts_px;
     settings.near_fade_m = (float)from->near_fade_m;
     settings.air_density = rain.air_density;
     settings.lighting = s->lighting;

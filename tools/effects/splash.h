@@ -20,7 +20,7 @@ typedef struct scene_splash {
     double bounce;
     double pile_max_s, pile_max_m;
     double dot_min_mm;
-    double gain, light_gain, min_width_px, soft_m, near_fade_m;
+    double gain, light_gain, min_width_px, soft_m, near_fade_m, parts_px;
 } scene_splash;
 
 /* The splashes of a scene. */

@@ -162,6 +162,11 @@ typedef struct virga_splash_settings {
 
     /* [0; 5] things nearer to the camera than this fade out (m). Default 0.05. */
     float near_fade_m;
+
+    /* (film) [0.5; 10000] half width (pixels) from which on a splash that is too small for a sheet shows its parts: the
+     * ring of its foot, and droplets as streaks of the time for which the shutter is open. Smaller ones are spots; all
+     * are with a large value. The water covered is the same. Default 1.3. */
+    float parts_px;
 } virga_splash_settings;
 
 VIRGA_API virga_splash_settings virga_default_splash_settings(void);

@@ -1,10 +1,10 @@
 // sprite.glsl - what the slots of sprites stand for, and how much of the picture each would cover.
 #include "view.glsl"
 
-#define SLOT_NONE 0u
+#define SLOT_NONE    0u
 #define SLOT_DROPLET 1u
-#define SLOT_PILE 2u
-#define SLOT_SPLASH 3u
+#define SLOT_PILE    2u
+#define SLOT_SPLASH  3u
 
 struct Slot {
     uint kind;
@@ -138,7 +138,9 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
-    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10; // pieces of one impact have the same id
+    // Pieces of one impact have the same id, so it is a number of the splash's own.
+    const float ring = clamp(crown.radius / max(crown.radius + spread, 1e-6), 0.0, 1.0);
+    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10 | uint(255.0 * ring) << 20;
     return sprite;
 }
 

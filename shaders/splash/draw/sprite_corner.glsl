@@ -4,9 +4,9 @@
 //
 // Vertices are read from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan half
 // as much again.
-#include "sprite_form.glsl"
 #include "gpu/line.glsl"
 #include "gpu/texels.glsl"
+#include "sprite_form.glsl"
 
 TEXELS(sprite_texel, 20, 13) // four texels per sprite; behind all of them a texel per motion
 
@@ -18,7 +18,8 @@ layout(location = 5) noperspective out vec2 motion; // px
 layout(location = 0) noperspective out vec4 sprite_position;
 layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_kind;
-// x, y: half widths at head and tail; z: length of the path; w: length of the body (px)
+// x, y: half widths at head and tail ((puff) y: radius of the ring over the half width); z: length of the path; w:
+// length of the body (px)
 layout(location = 3) flat out vec4 shape;
 // Direction of the path on the picture. A puff: x: rows, and as fraction the fraction of its life; y: sine of the
 // elevation; z: share; w: columns, and a random fraction. A line: see line_equation.
@@ -57,8 +58,10 @@ void set_corner(uint vertex)
     const float random = float(rest.w & 1023u) / 1024.0, life = float(rest.w >> 10 & 1023u) / 1024.0;
     const float rows = floor(shares.y / 32.0);
     axis_chance = vec4(along, shares.x, shares.y - 32.0 * rows + random);
-    if (kind == VIRGA_SPRITE_PUFF)
+    if (kind == VIRGA_SPRITE_PUFF) {
         axis_chance.xy = vec2(rows + life, widths.y);
+        shape.y = float(rest.w >> 20 & 255u) / 255.0;
+    }
     if (LINES)
         axis_chance = vec4(line_equation(tail, side), 0.0);
     // w is 1 at all corners, so that everything is interpolated without perspective.

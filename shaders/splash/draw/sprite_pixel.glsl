@@ -1,7 +1,7 @@
 // sprite_pixel.glsl - how much of a pixel a sprite covers.
-#include "sprite_form.glsl"
 #include "gpu/streak_profile.glsl"
 #include "shared/random.h"
+#include "sprite_form.glsl"
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "gpu/temporal.glsl"
@@ -17,7 +17,10 @@ layout(location = 4) flat in vec4 axis_chance;
 layout(location = 0) out vec4 radiance;
 
 // px from the center line; the ends of a line do not know it.
-float from_middle() { return LINES ? dot(axis_chance.xyz, vec3(gl_FragCoord.xy, 1.0)) : sprite_position.x; }
+float from_middle()
+{
+    return LINES ? dot(axis_chance.xyz, vec3(gl_FragCoord.xy, 1.0)) : sprite_position.x;
+}
 
 // The fraction of the time for which a moving disc covers the pixel: the part of its chord there that is on the path,
 // over the path. One that hardly moves has a path of a pixel, which gives soft ends.
@@ -31,7 +34,10 @@ float droplet_cover()
 }
 
 // A pile narrows from its foot like a flame, a cone on a wide foot like a hyperbola: it rises from the water level.
-bool is_cone() { return shape.y > 4.0 * shape.x; }
+bool is_cone()
+{
+    return shape.y > 4.0 * shape.x;
+}
 
 #define CONE_FOOT 0.08 // of its height
 
@@ -81,7 +87,9 @@ float one_crown_cover(vec2 at, float half_wide, float high, float sine, vec4 cha
     return 0.1875 * walls * across * thin;
 }
 
-#define MAX_OPACITY 0.42 // max opacity of a crown, whose wall is thin
+#include "puff_ring.glsl"
+
+#define MAX_OPACITY 0.6 // max opacity of a splash, whose wall is thin
 
 // Several crowns on an ellipse, each at its own position. They differ in size and age; the one at the opposite position
 // covers less by what one covers more than the mean. Together they cover half of their rectangle. Small ones close
@@ -115,11 +123,14 @@ float puff_cover()
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
     const vec2 at = vec2(sprite_position.x + shape.x - (column + 0.5) * column_px - beside,
                          sprite_position.y - lowest - row * row_px - foot);
+    const float spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
+    const float seen = smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide);
+    const float parts =
+        seen > 0.0 ? ring_cover(at, half_wide, high, axis_chance.y, shape.y, fract(axis_chance.x), chance) : 0.0;
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
     const vec2 on_ellipse = vec2(sprite_position.x * deep, 2.0 * sprite_position.y * shape.x) * each - vec2(0.0, 1.0);
     const float uniform_cover = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
-    return one_px * (one_high + 1.0) *
-           mix(covers * one_crown_cover(at, half_wide, high, axis_chance.y, chance), uniform_cover, veil);
+    return one_px * (one_high + 1.0) * mix(covers * mix(spot, parts, seen), uniform_cover, veil);
 }
 
 float sprite_cover()

@@ -1,20 +1,34 @@
-// sprite_thin.frag - a sprite that is too narrow to show the background through it (below WIDE_PX): its mean colour,
+// sprite_thin.frag - a sprite that is too narrow to show an image of the background (below WIDE_PX): its mean colour,
 // premultiplied.
-// One invocation per pixel of such a sprite. Reads: the scene's depth. Writes: radiance, motion, reactive.
+// One invocation per pixel of such a sprite. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
+#include "gpu/vectors.glsl"
 #include "shared/splash_gpu.h"
 #include "shared/view_gpu.h"
-layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
-#include "sprite_pixel.glsl"
+layout(scalar, set = 0, binding = 1) uniform View
+{
+    virga_view_gpu view;
+    virga_splash_look_gpu look;
+};
 #include "gpu/encode.glsl"
+#include "gpu/light.glsl"
+#include "gpu/view.glsl"
+#include "sprite_pixel.glsl"
+#include "through.glsl"
+#include "torn.glsl"
 
 void main()
 {
     const float alpha = sprite_cover(), u = min(abs(from_middle()) / max(shape.x, 0.5), 1.0);
-    radiance = for_target(vec4(mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u) * alpha, alpha));
+    const float torn = PUFFS ? TORN_PUFF : rim_kind.w < 0.5 ? TORN_DROPLET : TORN_PILE;
+    const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
+    const vec3 unlit = torn_light(environment(d, vec2(0.97, 0.90)), torn);
+    const vec3 open = mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u), lit = max(center_alpha.rgb - unlit, 0.0);
+    const vec3 light = small_water(gl_FragCoord.xy, d, open - lit, lit, torn);
+    radiance = for_target(vec4(light * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -8,7 +8,11 @@
 #include "shared/splash_gpu.h"
 #include "shared/view_gpu.h"
 #include "gpu/vectors.glsl"
-layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
+layout(scalar, set = 0, binding = 1) uniform View
+{
+    virga_view_gpu view;
+    virga_splash_look_gpu look;
+};
 #include "gpu/view.glsl"
 #include "gpu/light.glsl"
 #include "torn.glsl"

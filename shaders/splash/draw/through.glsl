@@ -36,7 +36,22 @@ vec3 seen(vec3 direction)
     return mix(around, scene_at(pixel), inside);
 }
 
-float fresnel(float cosine) { return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0); }
+// What small water shows: what is behind it, and what is above that, where the ground ends and what stands on it
+// begins. `open`: its light under an open sky, which is all that is known without a picture; `lit`: that of lamps.
+vec3 small_water(vec2 pixel, vec3 d, vec3 open, vec3 lit, float torn)
+{
+    if (view.color_given == 0u)
+        return open + lit;
+    const vec3 level = vec3(d.x, 0.0, d.z) * inversesqrt(max(dot(d.xz, d.xz), 1e-6));
+    const vec3 above = 0.4 * seen(level + vec3(0.0, 0.1, 0.0)) + 0.35 * seen(level + vec3(0.0, 0.3, 0.0)) +
+                       0.25 * seen(level + vec3(0.0, 0.6, 0.0));
+    return mix(scene_at(pixel), min(above, 2.0 * max(open, 0.0)), 0.4 + 0.4 * torn) + lit;
+}
+
+float fresnel(float cosine)
+{
+    return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0);
+}
 
 // What a ball of water shows at `side`, the part of the surface's normal across the line of sight, with the length r =
 // sin i. The ray is deflected by 2 (i - t) towards the other side, so the world appears upside down; the rim reflects.

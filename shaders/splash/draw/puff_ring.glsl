@@ -1,0 +1,60 @@
+// puff_ring.glsl - a splash that is too small for a sheet, but not for its parts to be seen: the ring of its foot, and
+// the droplets that leave it, as streaks of the time for which the shutter is open.
+//
+// Its total coverage is 1: each part has its share of all by its area, so that it stays as visible as when it was a
+// spot.
+
+#define FINGERS   6
+#define STAYING   2   // of them are there until the end, as beads
+#define RING_PX   0.9 // widths of the lines
+#define FINGER_PX 0.75
+#define SHUTTER   0.23 // share of the life (0.09 s) that a shutter of 1/48 s is open
+#define INSIDE    0.12 // of the ring's coverage: the thin water within it
+
+float hat(float distance_px, float half_px)
+{
+    return max(1.0 - abs(distance_px) / half_px, 0.0);
+}
+
+// x: coverage of a pixel; y: the area (px^2).
+vec2 ring_part(vec2 at, vec2 radii)
+{
+    const vec2 scaled = at / radii;
+    const float f = length(scaled), off = (f - 1.0) * f / max(length(scaled / radii), 1e-4);
+    const float perimeter = 3.14159265 * (1.5 * (radii.x + radii.y) - sqrt(radii.x * radii.y)); // nearly
+    const float inside = INSIDE * clamp(0.5 - off, 0.0, 1.0);
+    return vec2(max(hat(off, RING_PX), inside), perimeter * RING_PX + INSIDE * 3.14159265 * radii.x * radii.y);
+}
+
+vec2 streak_part(vec2 at, vec2 from, vec2 to)
+{
+    const vec2 way = to - from;
+    const float along = clamp(dot(at - from, way) / max(dot(way, way), 1e-4), 0.0, 1.0);
+    return vec2(hat(distance(at, from + way * along), FINGER_PX), (length(way) + FINGER_PX) * FINGER_PX);
+}
+
+// Where a droplet is at a part of the life: it leaves the ring outwards and up, and falls back.
+vec2 finger_at(vec2 radii, vec2 outward, vec2 reach, float life)
+{
+    return outward * (radii + reach.x * vec2(1.0, radii.y / radii.x) * life) +
+           vec2(0.0, reach.y * life * 1.1 * (1.0 - life));
+}
+
+// `at`: from the middle of the foot, y upwards; `share`: the ring's part of the half width. All in pixels.
+float ring_cover(vec2 at, float half_wide, float high, float sine, float share, float life, vec4 chance)
+{
+    const vec2 radii = max(share * half_wide * vec2(1.0, sine), vec2(0.8, 0.4));
+    vec2 sum = ring_part(at, radii) * (1.0 - 0.7 * life);
+    // The half width and the height are those that the droplets have reached by now.
+    const float age = max(life, 0.05), before = max(age - SHUTTER, 0.0);
+    const vec2 most = vec2((1.0 - share) * half_wide, high) / age;
+    for (int i = 0; i < FINGERS && share < 0.97; i++) {
+        const vec2 other = fract(chance.xy * (3.7 + 2.3 * float(i)) + chance.zw * (1.0 + float(i)));
+        const float turn = 6.2831853 * (fract((float(i) + 0.8 * other.x) / float(FINGERS) + chance.z) - 0.5);
+        const vec2 outward = vec2(cos(turn), sin(turn)),
+                   reach = most * vec2(0.55 + 0.6 * other.y, 0.45 + 0.65 * other.x);
+        const float there = i < STAYING ? 1.0 : 1.0 - smoothstep(0.45, 0.8, life);
+        sum += there * streak_part(at, finger_at(radii, outward, reach, before), finger_at(radii, outward, reach, age));
+    }
+    return sum.x / max(sum.y, 1.0);
+}
