@@ -168,7 +168,7 @@ struct virga_sprite_gpu {
      * sprite's path. Then columns + 32 x rows of puffs. */
     uint shares;
     /* (puff) a random number of ten bits; the elapsed fraction of its life, in units of 1 / 1023; and the radius of its
-     * ring over that of the droplets around it, in units of 1 / 255 */
+     * ring over that of the droplets around it, in units of 1 / 255 (0: a disk) */
     uint id;
 };
 

@@ -139,7 +139,8 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
     // Pieces of one impact have the same id, so it is a number of the splash's own.
-    const float ring = clamp(crown.radius / max(crown.radius + spread, 1e-6), 0.0, 1.0);
+    const float part = clamp(crown.radius / max(crown.radius + spread, 1e-6), 0.01, 1.0);
+    const float ring = crown.model == VIRGA_SPLASH_DISK ? 0.0 : part;
     sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10 | uint(255.0 * ring) << 20;
     return sprite;
 }

@@ -124,7 +124,7 @@ float puff_cover()
     const vec2 at = vec2(sprite_position.x + shape.x - (column + 0.5) * column_px - beside,
                          sprite_position.y - lowest - row * row_px - foot);
     const float spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
-    const float seen = smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide);
+    const float seen = shape.y > 0.0 ? smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide) : 0.0;
     const float parts =
         seen > 0.0 ? ring_cover(at, half_wide, high, axis_chance.y, shape.y, fract(axis_chance.x), chance) : 0.0;
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);

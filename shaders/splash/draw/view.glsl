@@ -113,9 +113,9 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
         highest *= sheet_share(VIRGA_DROPLET_STATE(splash.kind));
         widest *= 0.8;
     }
-    if (crown.model == VIRGA_SPLASH_DOT) {
-        highest = 1.5 * splash.diameter_m;
-        widest = 1.5 * splash.diameter_m;
+    if (crown.model == VIRGA_SPLASH_DOT) { // a collar; slow droplets hardly make one
+        highest = min(highest, 1.5 * splash.diameter_m);
+        widest = min(widest, 1.5 * splash.diameter_m);
     }
     const float life = max(crown.model == VIRGA_SPLASH_DOT ? DOT_S : crown_time(highest), 1e-3);
     crown.share = age / life;
