@@ -349,10 +349,10 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* start + rained_total + spray + spray_off_ground + touched + given = taken + off_ground + absorbed + film + puddle + run_off +
- * evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes and has not
- * fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such water, and
- * `taken` and `given` is what a solver of water took from the ground and gave to it. */
+/* start + rained_total + spray + spray_off_ground + touched + given = taken + off_ground + absorbed + film + puddle +
+ * run_off + evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes
+ * and has not fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such
+ * water, and `taken` and `given` is what a solver of water took from the ground and gave to it. */
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
