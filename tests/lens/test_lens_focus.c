@@ -133,12 +133,71 @@ static void breathing_is_that_of_a_thin_lens(void **state)
     assert_float_equal(virga_lens_breathing(0.05, 0.04), 1, 0);
 }
 
+/* A street of lamps at several depths, and a layer of drops on a pane. */
+static void paint_street(lens_fixture *f, const lens_picture *drops)
+{
+    for (uint32_t y = 0; y < f->scene.height; y++)
+        for (uint32_t x = 0; x < f->scene.width; x++) {
+            const double depth_m = x < 20 ? 1.2 : x < 40 ? 2 : 5;
+            lens_paint(&f->scene, x, y, x % 10 == 5 && y % 12 == 6 ? 20 : 0.5f, depth_m);
+            if (x % 16 < 3 && y % 10 < 3) {
+                lens_paint(drops, x, y, 0.7f, 0);
+                lens_pixel(drops, x, y)[3] = 0.8f;
+            }
+        }
+}
+
+/* The values of a pixel in a run of frames: from the smallest to the largest. */
+static float range_of(float *const *frames, int first, int end, size_t i)
+{
+    float low = frames[first][i], high = low;
+    for (int k = first; k < end; k++) {
+        low = fminf(low, frames[k][i]);
+        high = fmaxf(high, frames[k][i]);
+    }
+    return high - low;
+}
+
+/* The focus goes from the pane to the street in 48 frames, by up to 4 px of blur. A change that comes from the blur is
+ * spread over several frames; one that is in a single frame is a pop. */
+static void nothing_pops_as_the_focus_moves(void **state)
+{
+    (void)state;
+    enum { FRAMES = 49, WIDTH = 60, HEIGHT = 36, VALUES = 4 * WIDTH * HEIGHT };
+    for (int half = 0; half < 2; half++) {
+        lens_fixture f;
+        float *frames[FRAMES], worst = 0;
+        lens_fixture_open(&f, WIDTH, HEIGHT, half);
+        f.settings.aperture_f *= 2; /* 5 px at 1/m */
+        paint_street(&f, lens_fixture_layer(&f, 1));
+        for (int k = 0; k < FRAMES; k++) {
+            f.settings.focus_m = (float)(1 / (1 - 0.8 * k / (FRAMES - 1)));
+            lens_fixture_run(&f);
+            frames[k] = malloc(VALUES * sizeof(float));
+            assert_non_null(frames[k]);
+            memcpy(frames[k], f.result, VALUES * sizeof(float));
+        }
+        for (int k = 0; k + 1 < FRAMES; k++)
+            for (size_t i = 0; i < VALUES; i++) {
+                const float change = fabsf(frames[k + 1][i] - frames[k][i]);
+                const int first = k < 4 ? 0 : k - 4, end = k + 6 > FRAMES ? FRAMES : k + 6;
+                worst = fmaxf(worst, change / (range_of(frames, first, end, i) + 0.05f));
+            }
+        printf("%s resolution: at most %.2f of a change in one frame\n", half ? "half" : "full", (double)worst);
+        assert_true(worst < 0.6f);
+        for (int k = 0; k < FRAMES; k++)
+            free(frames[k]);
+        lens_fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_focus_follows_the_depth_at_the_point), cmocka_unit_test(the_focus_eases_to_a_new_depth),
         cmocka_unit_test(two_views_have_their_own_pictures),        cmocka_unit_test(without_depth_all_is_sharp),
         cmocka_unit_test(a_view_gets_the_lens_for_its_streaks),     cmocka_unit_test(breathing_is_that_of_a_thin_lens),
+        cmocka_unit_test(nothing_pops_as_the_focus_moves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
