@@ -6,8 +6,8 @@
 // for f1 and f = 5 for f2. f2 then has a variance of 0.46 px^2 along each axis, and f1 of 0.40 px^2: f2 is the stronger
 // blur, as the paper says.
 //
-// An invocation goes down a column of pixels, so that each row of three is read and added once: 4.5 texels a pixel
-// instead of 9.
+// An invocation goes down a column of pixels, so that each row of three is read and added once: with eight pixels, 3.75
+// texels a pixel instead of 9.
 // One invocation per VIRGA_LENS_COLUMN pixels. Reads: color, depth, layers, state. Writes: the picture.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
