@@ -1,8 +1,8 @@
 // host_color.glsl - a sample of the host's picture as linear light. The includer has shared/view_gpu.h.
 #include "gpu/srgb.glsl"
 
-// `given`: virga_view_gpu.color_given. A loop, because software Vulkan leaves one that no lane needs, but runs both
-// sides of a branch.
+// `given`: virga_view_gpu.color_given. Software Vulkan decodes in any case, so passes that read many samples have
+// pipelines of their own for linear light.
 vec3 host_color(vec3 stored, uint given)
 {
     vec3 light = stored;

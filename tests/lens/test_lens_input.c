@@ -19,12 +19,38 @@ static void colors_that_are_not_numbers_are_black_and_infinite_ones_are_bright(v
     }
 }
 
+/* A depth that is no number counts as infinitely far. */
+static void depths_that_are_not_numbers_spoil_nothing(void **state)
+{
+    (void)state;
+    for (int paper = 0; paper < 2; paper++)
+        for (int halved = 0; halved < 2; halved++) {
+            lens_fixture f;
+            lens_fixture_open(&f, 32, 32, halved);
+            f.settings.style = paper ? VIRGA_LENS_STYLE_PAPER : VIRGA_LENS_STYLE_PHYSICAL;
+            lens_paint_all(&f.scene, 0.5f, 1);
+            f.scene.depth[8 * 32 + 8] = NAN;
+            f.scene.depth[20 * 32 + 20] = INFINITY;
+            f.scene.depth[20 * 32 + 8] = -INFINITY;
+            const lens_picture *layer = lens_fixture_layer(&f, 0);
+            lens_paint(layer, 16, 16, NAN, 0.5);
+            lens_paint(layer, 24, 8, 0.25f, 1);
+            layer->depth[8 * 32 + 24] = NAN;
+            lens_fixture_run(&f);
+            for (size_t i = 0; i < 4u * 32 * 32; i++)
+                assert_true(isfinite(f.result[i]) && f.result[i] >= 0 && f.result[i] <= 1.01f);
+            assert_float_equal(lens_result(&f, 2, 30), 0.5, 1e-3);
+            lens_fixture_close(&f);
+        }
+}
+
 static void a_picture_of_one_pixel_is_itself(void **state)
 {
     (void)state;
-    for (int halved = 0; halved < 2; halved++) {
+    for (int kind = 0; kind < 4; kind++) {
         lens_fixture f;
-        lens_fixture_open(&f, 1, 1, halved);
+        lens_fixture_open(&f, 1, 1, kind & 1);
+        f.settings.style = kind & 2 ? VIRGA_LENS_STYLE_PAPER : VIRGA_LENS_STYLE_PHYSICAL;
         lens_paint_all(&f.scene, 3, 0.2);
         lens_fixture_run(&f);
         assert_float_equal(lens_result(&f, 0, 0), 3, 2e-3);
@@ -165,6 +191,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colors_that_are_not_numbers_are_black_and_infinite_ones_are_bright),
+        cmocka_unit_test(depths_that_are_not_numbers_spoil_nothing),
         cmocka_unit_test(a_picture_of_one_pixel_is_itself),
         cmocka_unit_test(both_kinds_of_depth_buffers_give_the_same_picture),
         cmocka_unit_test(the_same_picture_gives_the_same_bits),
