@@ -1,6 +1,5 @@
 // light.glsl - the light that comes from a point of the water's surface. See gpu/scene_depth.glsl for PIXEL_HERE.
-#include "gpu/host_color.glsl"
-layout(set = 0, binding = 18) uniform sampler2D scene_color;
+#include "scene_color.glsl"
 layout(set = 0, binding = 19) uniform sampler2D panorama;
 
 #include "fresnel.glsl"

@@ -1,9 +1,12 @@
 // specks.glsl - droplets of spray that are too small in the picture to have a surface there.
 //
 // They lie over the surface with the coverage that their discs have, and do not hide what is behind the rest of a
-// pixel. Their light is that of a drop on average, as of falling rain: the environment and lamps through its phase
-// function. The third and fourth channel of the image of motion hold their sums of weight, and of weight times depth.
-// The includer includes view.glsl, gpu/scene_depth.glsl, gpu/light.glsl and surface.glsl, and defines HAS_DEPTH.
+// pixel. Their light is that of a drop on average, which shows what is behind it from a wide angle, blurred: the host's
+// picture around the pixel, or without one the environment through its phase function, as of falling rain. The third
+// and fourth channel of the image of motion hold their sums of weight, and of weight times depth.
+//
+// The includer includes view.glsl, gpu/scene_depth.glsl, gpu/light.glsl, surface.glsl and scene_color.glsl, and defines
+// HAS_DEPTH and HAS_COLOR.
 struct Specks {
     vec3 light; // radiance
     float covered;
@@ -17,6 +20,25 @@ vec4 motion_sums_at(vec2 at)
                   : texelFetch(motion_image, ivec2(at), 0);
 }
 
+#define MIRRORED 0.1 // of the light that a drop turns towards the eye
+
+// What a drop shows of the environment or the scene in a direction of view.
+vec3 through_drop(vec3 direction)
+{
+    const vec3 all = environment(direction, vec2(view.phase_moment[1], view.phase_moment[2]));
+    if (!HAS_COLOR)
+        return all;
+    const vec2 low = vec2(view.viewport[0], view.viewport[1]), size = vec2(view.viewport[2], view.viewport[3]);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 8; i++) {
+        const float angle = 0.785398 * float(i), radius = (i & 1) == 0 ? 0.06 : 0.15;
+        const vec2 pixel = gl_FragCoord.xy + radius * size.y * vec2(cos(angle), sin(angle));
+        const vec4 texel = texelFetch(scene_color, ivec2(clamp(pixel, low, low + size - 1.0)), 0);
+        sum += host_color(texel.rgb, view.color_given);
+    }
+    return mix(sum / 8.0, all, MIRRORED);
+}
+
 Specks specks_of(vec4 motion_sums, vec3 ray)
 {
     Specks specks = Specks(vec3(0.0), 0.0, 1.0);
@@ -27,8 +49,7 @@ Specks specks_of(vec4 motion_sums, vec3 ray)
     if (HAS_DEPTH)
         specks.covered *= soft_edge(specks.depth);
     const vec3 direction = normalize(ray);
-    specks.light = environment(direction, vec2(view.phase_moment[1], view.phase_moment[2])) +
-                   lamps(ray * specks.depth, direction);
+    specks.light = through_drop(direction) + lamps(ray * specks.depth, direction);
     return specks;
 }
 

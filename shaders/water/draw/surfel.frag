@@ -7,12 +7,14 @@
 #include "view.glsl"
 layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_DEPTH or 0
 #define HAS_DEPTH (LOOK != 0u)
+#define HAS_COLOR (view.color_given != 0u)
 #define SCENE_DEPTH_BINDING 17
 #include "gpu/scene_depth.glsl"
 #include "gpu/light.glsl"
 #include "gpu/temporal.glsl"
 #define SCALED (look.scale < 1.0)
 #include "surface.glsl"
+#include "scene_color.glsl"
 #include "specks.glsl"
 #include "gpu/encode.glsl"
 
