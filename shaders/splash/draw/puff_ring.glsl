@@ -8,7 +8,7 @@
 #define STAYING   2   // of them are there until the end, as beads
 #define RING_PX   0.9 // widths of the lines
 #define FINGER_PX 0.75
-#define SHUTTER   0.23 // share of the life (0.09 s) that a shutter of 1/48 s is open
+#define LIFE_S    0.09 // of nearly all splashes, SHEET_S in shape.glsl
 #define INSIDE    0.12 // of the ring's coverage: the thin water within it
 
 float hat(float distance_px, float half_px)
@@ -46,7 +46,7 @@ float ring_cover(vec2 at, float half_wide, float high, float sine, float share, 
     const vec2 radii = max(share * half_wide * vec2(1.0, sine), vec2(0.8, 0.4));
     vec2 sum = ring_part(at, radii) * (1.0 - 0.7 * life);
     // The half width and the height are those that the droplets have reached by now.
-    const float age = max(life, 0.05), before = max(age - SHUTTER, 0.0);
+    const float age = max(life, 0.05), before = max(age - (view.time_close_s - view.time_open_s) / LIFE_S, 0.0);
     const vec2 most = vec2((1.0 - share) * half_wide, high) / age;
     for (int i = 0; i < FINGERS && share < 0.97; i++) {
         const vec2 other = fract(chance.xy * (3.7 + 2.3 * float(i)) + chance.zw * (1.0 + float(i)));
