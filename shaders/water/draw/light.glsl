@@ -59,18 +59,32 @@ float below_surface(Point point, vec2 pixel)
     return dot(point.normal, point.position - pixel_ray(floor(pixel) + 0.5) * depth); // where the depth was taken
 }
 
-// Where the ray meets the scene, as a length along the path. The scene behind a pixel is taken as a plane that is
-// parallel to the surface of the water: exact for a flat bottom, and on other scenes each step comes nearer.
+// The length along the path to the scene that the picture shows where the path is after the length s. The scene there is
+// taken as a plane that is parallel to the surface of the water.
+float next_length(Point point, Path path, float s)
+{
+    const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
+    const float below = max(below_surface(point, pixel), 0.0), wet = path.length_m * path.cos_water;
+    return below < wet ? below / path.cos_water
+                       : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);
+}
+
+// Where the ray meets the scene, as a length along the path: exact for a flat bottom, and on other scenes each step
+// comes nearer. Where the ray passes behind the edge of an object there is no such length: the picture shows the
+// background where the ray is before the edge, and the object where it is behind. The ray then sees what the picture
+// shows just before the edge. Without this, outlines of objects stood beside them.
 float meeting(Point point, Path path)
 {
-    float s = 0.0;
+    float s = 0.0, next = 0.0, before = 0.0, behind = 1e30;
     for (int i = 0; i < STEPS; i++) {
-        const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
-        const float below = max(below_surface(point, pixel), 0.0), wet = path.length_m * path.cos_water;
-        s = below < wet ? below / path.cos_water
-                        : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);
+        s = next >= before && next < behind ? next : 0.5 * (before + behind);
+        next = next_length(point, path, s);
+        if (next < s)
+            behind = min(behind, s);
+        else
+            before = max(before, s);
     }
-    return s;
+    return abs(next - s) > 0.1 * max(next, s) ? before : next;
 }
 
 // The host's picture where the ray meets it, unless that is in front of the water.
