@@ -99,9 +99,16 @@ typedef struct scene_preview {
     double exposure_ev;
 } scene_preview;
 
+/* Where the light comes from that drops before a plate refract. */
+typedef enum scene_footage_light {
+    SCENE_LIGHT_OF_PLATE, /* from the plate; where environment.file is given, from that */
+    SCENE_LIGHT_OF_SCENE, /* from environment */
+} scene_footage_light;
+
 /* What the pictures of a plate mean, see --plate. */
 typedef struct scene_footage {
     uint32_t curve;            /* transfer_curve */
+    uint32_t light;            /* scene_footage_light */
     double depth_m;            /* where --depth gives none; 0: nothing is there, as in the sky */
     uint32_t depth_kind;       /* depth_map_kind */
     double depth_scale;        /* of a value; 0: by the format */

@@ -14,9 +14,13 @@ static const scene_keyword curves[] = {
 static const scene_keyword depth_kinds[] = {
     {"axis", DEPTH_MAP_AXIS}, {"ray", DEPTH_MAP_RAY}, {"disparity", DEPTH_MAP_DISPARITY}, {NULL, 0}};
 
+static const scene_keyword lights[] = {{"plate", SCENE_LIGHT_OF_PLATE}, {"scene", SCENE_LIGHT_OF_SCENE}, {NULL, 0}};
+
 static const scene_row footage_rows[] = {
     CHOICE(scene_footage, curve, curves, "auto", RESTARTS,
            "transfer curve of the plate, undone before rain and done again after; auto: srgb, linear for floats"),
+    CHOICE(scene_footage, light, lights, "plate", RESTARTS,
+           "what drops refract: plate (its first picture, mirrored all around, without environment.file) or scene"),
     NUMBER(scene_footage, depth_m, 0, MAX_METERS, "0", RESTARTS,
            "how far the plate is where --depth does not say it; 0: infinitely far"),
     CHOICE(scene_footage, depth_kind, depth_kinds, "axis", RESTARTS,

@@ -3,6 +3,9 @@
 
 #include "effect.h"
 #include "exr.h"
+#include "shot/focus.h"
+#include "shot/plate.h"
+#include "shot/plate_light.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,6 +42,32 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size)
 
 /* ---- light and camera */
 
+enum { LIGHT_WIDTH = 256, LIGHT_HEIGHT = 128 }; /* of the panorama that is made of a plate */
+
+/* The light of a plate is that of the scene's first frame for all frames, so that a frame does not depend on which
+ * frames are drawn. *pixels stays NULL where that picture is not there. */
+static bool light_of_plate(shot *s, host_environment_def *def, float **pixels, char *error, size_t error_size)
+{
+    const uint32_t first = s->scene->frames.first;
+    host_camera camera;
+    if (!plate_has(s->plate, first)) {
+        host_warn(&s->device, "--plate: no picture for frame %u, so drops have the light of environment's colors",
+                  first);
+        return true;
+    }
+    if (!shot_blame_input(s, plate_load(s->plate, first, error, error_size)))
+        return false;
+    *pixels = malloc((size_t)LIGHT_WIDTH * LIGHT_HEIGHT * 3 * sizeof **pixels);
+    if (!*pixels)
+        return host_fail(error, error_size, "no memory for the light of the plate");
+    shot_camera(s, 0, 0, NULL, &camera);
+    plate_light_panorama(s->plate->rgba, &camera, *pixels, LIGHT_WIDTH, LIGHT_HEIGHT);
+    def->pixels = *pixels;
+    def->width = LIGHT_WIDTH;
+    def->height = LIGHT_HEIGHT;
+    return true;
+}
+
 bool shot_load_environment(shot *s, char *error, size_t error_size)
 {
     const scene_environment *from = &s->scene->environment;
@@ -61,6 +90,9 @@ bool shot_load_environment(shot *s, char *error, size_t error_size)
                       (unsigned long long)repaired);
         def.pixels = pixels;
     }
+    if (!from->file && s->plate && s->scene->footage.light == SCENE_LIGHT_OF_PLATE &&
+        !light_of_plate(s, &def, &pixels, error, error_size))
+        return false;
     const bool made = host_environment_create(&s->device, &def, &s->environment, error, error_size);
     free(pixels);
     memcpy(s->lighting.environment_sh, s->environment.sh, sizeof s->lighting.environment_sh);

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static bool is_picture(const char *name)
 {
@@ -81,6 +82,12 @@ void plate_close(plate *p)
     free(p->rgba);
     free(p->depth);
     *p = (plate){0};
+}
+
+bool plate_has(const plate *p, uint32_t frame)
+{
+    char path[4096], ignored[256];
+    return plate_files_name(&p->pictures, frame, path, ignored, sizeof ignored) && !access(path, R_OK);
 }
 
 /* ---- resampling */

@@ -34,6 +34,9 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
                 size_t error_size);
 void plate_close(plate *p);
 
+/* Whether there is a picture for a frame. */
+bool plate_has(const plate *p, uint32_t frame);
+
 /* Loads picture and depth of a frame, resampled to the shot's size where they have another; the first time that is said
  * of the picture in a line on standard error. */
 bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size);
