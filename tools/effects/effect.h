@@ -232,6 +232,7 @@ typedef struct tool_effect {
 
     const tool_layer *layers;
     uint32_t layer_count;
+    bool after_plate;  /* it is prepared after the opaque scene is drawn, and may read its color and depth then */
     bool shows_behind; /* it is prepared after all layers of a lower order are drawn, and view.color contains them */
     /* Updates what changes in the opaque scene. */
     bool (*before_plate)(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size);

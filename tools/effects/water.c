@@ -515,6 +515,7 @@ const tool_effect water_effect = {
     .step = step,
     TOOL_ROWS(layer, layers),
     .before_plate = before_plate,
+    .after_plate = true,
     .prepare = prepare,
     .points = &water_points,
     .mesh = &water_surface_mesh,

@@ -125,7 +125,9 @@ typedef enum virga_water_shading {
     /* As in the paper (section 5): in four points of each surfel, with its own normal. Where the four colors differ by
      * more than surfel_difference, the surfel is divided into four of half its radius, down to the size of a pixel. One
      * that is not divided has the mean of its four colors. Pictures are softer, and glitter is lost; cost grows with
-     * the surfels in view instead of the pixels. It is for comparisons, and needs virga_water_def.max_parts. */
+     * the surfels in view instead of the pixels. It is for comparisons, and needs virga_water_def.max_parts.
+     *
+     * virga_water_prepare then reads virga_view.color and depth: the opaque scene must be drawn before it. */
     VIRGA_WATER_SHADING_SURFELS = 1,
 } virga_water_shading;
 

@@ -86,12 +86,13 @@ static bool draw_layers(shot *s, VkCommandBuffer cmd, const tool_moment *at, cha
 
 /* ---- the picture */
 
-/* In the order of layers; those that show what is behind them come later. */
-static bool prepare(shot *s, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+/* In the order of layers, before the plate or after it; those that show what is behind them come later. */
+static bool prepare(shot *s, VkCommandBuffer cmd, const tool_moment *at, bool after_plate, char *error,
+                    size_t error_size)
 {
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const tool_effect *effect = effect_of(&s->layers[i]);
-        if (effect->prepare && !effect->shows_behind && is_first(s, i) &&
+        if (effect->prepare && !effect->shows_behind && effect->after_plate == after_plate && is_first(s, i) &&
             !effect->prepare(s, s->states[s->layers[i].effect], cmd, at, error, error_size))
             return false;
     }
@@ -124,9 +125,10 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, 
                            char *error, size_t error_size)
 {
     shot_begin_lens(s);
-    if (!prepare(s, cmd, at, error, error_size) ||
+    if (!prepare(s, cmd, at, false, error, error_size) ||
         !record_plate(s, cmd, at->camera_s, &cameras->now, &cameras->frame_ago, error, error_size) ||
-        !draw_layers(s, cmd, at, error, error_size) || !shot_record_lens(s, cmd, at, error, error_size))
+        !prepare(s, cmd, at, true, error, error_size) || !draw_layers(s, cmd, at, error, error_size) ||
+        !shot_record_lens(s, cmd, at, error, error_size))
         return false;
     if (!s->moving_target)
         return true;
