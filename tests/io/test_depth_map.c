@@ -22,9 +22,10 @@ static void write_bytes(const char *name, const void *bytes, size_t size)
 static size_t write_npy(const char *name, const char *type, const char *order, const char *shape, const void *elements,
                         size_t size)
 {
+    static const char begin[10] = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, 118, 0};
     char bytes[1024];
     memset(bytes, ' ', 128);
-    memcpy(bytes, "\x93NUMPY\x01\x00\x76\x00", 10);
+    memcpy(bytes, begin, sizeof begin);
     const int length =
         snprintf(bytes + 10, 118, "{'descr': '%s', 'fortran_order': %s, 'shape': %s, }", type, order, shape);
     bytes[10 + length] = ' ';
