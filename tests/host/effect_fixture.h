@@ -134,6 +134,7 @@ static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, vir
     def.wide_lines = gpu->device.wide_lines;
     def.log = log;
     def.log_user = user;
+    def.log_repeats = true;
     def.timings = timings;
     virga_context *context = NULL;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);

@@ -379,7 +379,7 @@ static void begin_pass(const engine *e, VkCommandBuffer cmd, VkRenderPass pass, 
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
 }
 
-/* Splashes have no depth to sample while it is attached: their view is without. */
+/* Splashes have no depth and no color to sample while they are attached: their view is without. */
 static void draw_scene(engine *e, VkCommandBuffer cmd, const world_moment *moment, uint32_t slot)
 {
     virga_splash *splash = virga_scene_splash(e->scene);
@@ -491,6 +491,7 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
     read_bits(&e.state, &bits);
     engine_close(&e);
     offline_open(&o, 1);
+    o.splash_without_color = true;
     offline_run(&o, &offline_bits);
     offline_draw(&o, center, 1, expected);
     offline_close(&o);

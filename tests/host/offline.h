@@ -27,6 +27,7 @@ typedef struct offline {
     float low[WORLD_PIXELS * 3], high[WORLD_PIXELS * 3]; /* min and max of all jitters drawn in this frame */
     /* fraction of the picture that splashes, rain and pane cover by 1 % or more, over all jitters */
     double covered[3];
+    bool splash_without_color; /* splashes are lit as in a host that gives them no color to look through to */
 } offline;
 
 /* Virga loads its functions through `find`. */
@@ -156,7 +157,10 @@ static inline void offline_record(offline *o, VkCommandBuffer cmd, const float j
     moment.view.temporal.motion_coverage = WORLD_MOTION_COVERAGE;
     virga_rain *rain = virga_scene_rain(o->scene);
     virga_splash *splash = virga_scene_splash(o->scene);
-    REQUIRE(virga_splash_prepare(splash, cmd, &moment.view, virga_rain_time(rain)) == VIRGA_OK);
+    virga_view splash_view = moment.view;
+    if (o->splash_without_color)
+        splash_view.color = (virga_image){0};
+    REQUIRE(virga_splash_prepare(splash, cmd, &splash_view, virga_rain_time(rain)) == VIRGA_OK);
     REQUIRE(virga_rain_prepare(rain, cmd, &moment.view, virga_rain_time(rain)) == VIRGA_OK);
     host_target_begin_plate(&o->images, cmd);
     street_draw(&o->street, cmd, &moment, virga_scene_ground(o->scene), 0);

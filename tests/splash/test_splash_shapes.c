@@ -326,7 +326,7 @@ static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
 }
 
 /* Summed coverage from a distance, 30 degrees above the level: the mean over positions between pixels. It shows as
- * `max` pieces at most. */
+ * `max` pieces at most; 0: any number. */
 static double blob_alpha(shot *s, double distance_m, uint32_t max)
 {
     const double pixel = pixel_m(s, distance_m);
@@ -339,7 +339,7 @@ static double blob_alpha(shot *s, double distance_m, uint32_t max)
         const float *pixels = draw_frame(s);
         const uint32_t count = pieces(s, pixels);
         sum += sum_of(s, pixels, 3) / (BLOB_POSITIONS * BLOB_POSITIONS);
-        assert_true(count > max / 3 && count <= max);
+        assert_true(!max || (count > max / 3 && count <= max));
         assert_int_equal(prepared(s)->sprites, 1);
         assert_int_equal(prepared(s)->crowns.instance_count, 0);
     }
@@ -347,12 +347,13 @@ static double blob_alpha(shot *s, double distance_m, uint32_t max)
 }
 
 /* Times the square of the distance it stays the same, from blobs of 9 pixels to those of less than one. */
-static void check_blob(shot *s, double first_m)
+static void check_blob(shot *s, double first_m, uint32_t max)
 {
-    const double at_first = blob_alpha(s, first_m, 1) * first_m * first_m;
+    const double at_first = blob_alpha(s, first_m, max) * first_m * first_m;
     double max_error = 0;
     for (int i = 1; i < 5; i++) {
-        const double distance = ldexp(first_m, i), share = blob_alpha(s, distance, 1) * distance * distance / at_first;
+        const double distance = ldexp(first_m, i),
+                     share = blob_alpha(s, distance, max) * distance * distance / at_first;
         printf("from %.2f m: %.3f of the blob\n", distance, share);
         max_error = fmax(max_error, fabs(share - 1));
     }
@@ -364,8 +365,21 @@ static void a_crown_far_away_is_a_blob_that_covers_what_its_size_gives(void **st
     (void)state;
     shot s;
     open_shot(&s);
+    s.f.settings.parts_px = 10000;
+    apply_settings(&s);
     put_crown(&s);
-    check_blob(&s, 0.25);
+    check_blob(&s, 0.25, 1);
+    close_shot(&s);
+}
+
+/* Ring and droplets near by, a spot farther away. */
+static void a_small_crown_covers_the_same_with_its_parts_and_as_a_spot(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_crown(&s);
+    check_blob(&s, 0.25, 0);
     close_shot(&s);
 }
 
@@ -376,7 +390,7 @@ static void a_disk_far_away_is_a_blob_that_covers_what_its_size_gives(void **sta
     open_shot(&s);
     put_disk(&s);
     splash_fixture_step(&s.f, 15);
-    check_blob(&s, 0.25);
+    check_blob(&s, 0.25, 1);
     close_shot(&s);
 }
 
@@ -408,6 +422,7 @@ int main(void)
         cmocka_unit_test(a_crown_of_the_paper_is_of_pyramids),
         cmocka_unit_test(a_disk_lies_flat_and_stays_for_two_seconds),
         cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
+        cmocka_unit_test(a_small_crown_covers_the_same_with_its_parts_and_as_a_spot),
         cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
         cmocka_unit_test(a_splash_that_stands_for_several_shows_them_side_by_side),
     };

@@ -59,8 +59,8 @@ float below_surface(Point point, vec2 pixel)
     return dot(point.normal, point.position - pixel_ray(floor(pixel) + 0.5) * depth); // where the depth was taken
 }
 
-// The length along the path to the scene that the picture shows where the path is after the length s. The scene there is
-// taken as a plane that is parallel to the surface of the water.
+// The length along the path to the scene that the picture shows where the path is after the length s. The scene there
+// is taken as a plane that is parallel to the surface of the water.
 float next_length(Point point, Path path, float s)
 {
     const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
