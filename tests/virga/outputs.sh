@@ -15,13 +15,15 @@ fail() {
     failures=$((failures + 1))
 }
 
-# render FOLDER OPTION...: the street, small. Without gusts, so that each drop falls with the mean wind. Renders with
+# render FOLDER OPTION...: the street, small. Without gusts, so that each drop falls with the mean wind, and from the
+# first frame on, so that ages and sums are those since then. Renders with
 # the same passes as one before run without validation (VIRGA_VALIDATE=0).
 render() {
     local folder=$work/$1
     shift
     timeout 120 "$virga" render "$source/assets/scenes/street.yaml" -o "$folder" --size 160x90 --device "$device" \
-        --set rain.gust_m_s=0 "$@" 2>"$work/log" || { cat "$work/log"; fail "render $*"; exit 1; }
+        --set rain.gust_m_s=0 --set frames.warm_start=false "$@" 2>"$work/log" ||
+        { cat "$work/log"; fail "render $*"; exit 1; }
     ! grep '^validation: ' "$work/log" || fail "render $*: validation"
 }
 
