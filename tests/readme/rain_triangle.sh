@@ -40,7 +40,7 @@ for program in triangle rain_triangle; do
 done
 # What the library tells a newcomer who has no other program: the device, and the rain.
 expected="virga info (created): context on D, N frames in flight
-virga info (created): rain: N slots in N boxes up to N m wide, N MB of device memory in use"
+virga info (created): rain: N slots in N levels, the largest N m wide, N MB of device memory in use"
 told=$(sed -E 's/context on .*, /context on D, /; s/[0-9.]+/N/g' said)
 [ "$told" = "$expected" ] || { cat said; echo "not told: device and rain"; exit 1; }
 python3 - triangle.ppm rain_triangle.ppm <<'PYTHON'

@@ -26,7 +26,7 @@ cat >"$work/scene.yaml" <<YAML
 virga: 1
 meshes: [{file: box.obj}]
 camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
-frames: {fps: 24, first: 1, last: $frames, size: [64, 36]}
+frames: {fps: 24, first: 1, last: $frames, size: [64, 36], warm_start: false}
 rain: {rate_mm_h: 10, gust_m_s: 1, max_drops: 4096, occlusion_size: 64}
 ground: {on: true, cells: 128, start_water_mm: 3}
 YAML
