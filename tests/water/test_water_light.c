@@ -71,6 +71,76 @@ static void a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer
     shot_close(&s);
 }
 
+/* ---- a red slab under the sheet */
+
+#define SLAB_M 0.05 /* half of its side */
+
+/* Where a ray meets the slab, or INFINITY. */
+static double slab_distance(const double eye[3], const double direction[3])
+{
+    const double low[3] = {-SLAB_M, -0.04, -SLAB_M}, high[3] = {SLAB_M, -0.01, SLAB_M};
+    double near = 0, far = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double a = (low[i] - eye[i]) / direction[i], b = (high[i] - eye[i]) / direction[i];
+        near = fmax(near, fmin(a, b));
+        far = fmin(far, fmax(a, b));
+    }
+    return near < far ? near : INFINITY;
+}
+
+static double slab_scene(const shot *of, const double eye[3], const double direction[3], double rgb[3])
+{
+    const double slab = slab_distance(eye, direction), distance = floor_scene(of, eye, direction, rgb);
+    rgb[0] = slab < distance ? 2 : 0;
+    rgb[1] = rgb[2] = 0;
+    return fmin(slab, distance);
+}
+
+static bool is_red(uint32_t x, uint32_t y)
+{
+    return x < SIDE && y < SIDE && shot_pixel(&s, x, y)[0] > 0.7f;
+}
+
+/* Removes the red piece that has the pixel, and returns its pixels. */
+static uint32_t take_piece(uint32_t x, uint32_t y)
+{
+    if (!is_red(x, y))
+        return 0;
+    s.pixels[4 * (y * SIDE + x)] = 0;
+    uint32_t sum = 1;
+    for (uint32_t i = 0; i < 9; i++)
+        sum += take_piece(x + i % 3 - 1, y + i / 3 - 1);
+    return sum;
+}
+
+/* Rays that pass behind its edge meet nothing that the picture shows. They must not show the slab a second time. */
+static void an_object_under_water_has_no_outline_beside_it(void **state)
+{
+    (void)state;
+    static const double eyes[3][3] = {{0, 0.6, 0.3}, {0.2, 0.35, 0.4}, {-0.3, 0.2, 0.4}};
+    shot_open(&s, SIDE, SIDE);
+    s.scene = slab_scene;
+    sheet_fill(&s);
+    memset(&s.f.settings.lighting, 0, sizeof s.f.settings.lighting);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
+    for (int i = 0; i < 3; i++) {
+        uint32_t whole = 0, beside = 0;
+        shot_aim(&s, eyes[i], (const double[3]){0, -0.05, 0});
+        shot_draw(&s);
+        shot_save(&s, (const char *[3]){"slab0", "slab1", "slab2"}[i]);
+        for (uint32_t k = 0; k < SIDE * SIDE; k++) {
+            const uint32_t piece = take_piece(k % SIDE, k / SIDE), larger = piece > whole ? piece : whole;
+            beside += piece + whole - larger;
+            whole = larger;
+        }
+        printf("a slab of %u pixels, and %u beside it\n", whole, beside);
+        REQUIRE(whole > 100);
+        REQUIRE(beside == 0);
+    }
+    shot_close(&s);
+}
+
 /* ---- thickness */
 
 static double black_scene(const shot *of, const double eye[3], const double direction[3], double rgb[3])
@@ -128,6 +198,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer_say),
+        cmocka_unit_test(an_object_under_water_has_no_outline_beside_it),
         cmocka_unit_test(the_thickness_of_a_ball_is_its_chord),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -72,7 +72,7 @@ float next_length(Point point, Path path, float s)
 // Where the ray meets the scene, as a length along the path: exact for a flat bottom, and on other scenes each step
 // comes nearer. Where the ray passes behind the edge of an object there is no such length: the picture shows the
 // background where the ray is before the edge, and the object where it is behind. The ray then sees what the picture
-// shows just before the edge. Without this, outlines of objects stood beside them.
+// shows just before the edge.
 float meeting(Point point, Path path)
 {
     float s = 0.0, next = 0.0, before = 0.0, behind = 1e30;
@@ -87,11 +87,28 @@ float meeting(Point point, Path path)
     return abs(next - s) > 0.1 * max(next, s) ? before : next;
 }
 
+// Whether the edge of an object runs between the four texels around a position in the picture. Their mean would show
+// the object beside itself, as a thin line.
+bool is_at_edge(vec2 pixel)
+{
+    if (!HAS_DEPTH)
+        return false;
+    float nearest = 1e30, farthest = 0.0;
+    for (int i = 0; i < 4; i++) {
+        const float stored = buffer_depth(inside_view(pixel - 0.5 + vec2(i & 1, i >> 1)));
+        const float depth = stored == view.far_depth ? 1e4 : view_depth(stored);
+        nearest = min(nearest, depth);
+        farthest = max(farthest, depth);
+    }
+    return farthest > 1.05 * nearest;
+}
+
 // The host's picture where the ray meets it, unless that is in front of the water.
 vec3 scene_through(Point point, float s, Path path)
 {
     const vec2 own = PIXEL_HERE, pixel = pixel_of(on_path(point, path, s));
-    const vec2 shifted = own + look.refraction * (pixel - own), inside = inside_view(shifted);
+    const vec2 shifted = own + look.refraction * (pixel - own);
+    const vec2 between = inside_view(shifted), inside = is_at_edge(between) ? floor(between) + 0.5 : between;
     const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth || below_surface(point, inside) > 0.0;
     const vec4 texels = between_texels(scene_color, behind ? inside : own, textureSize(scene_color, 0));
     const vec3 color = host_color(texels.rgb, view.color_given);
