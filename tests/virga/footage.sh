@@ -1,22 +1,8 @@
 #!/usr/bin/env bash
 # Rain over pictures of others: PNG, JPEG and TIFF in, light added in between, and the same format out.
 # Usage: footage.sh VIRGA
-set -u
-virga=$1
-device=${VIRGA_TEST_DEVICE:-cpu}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-}
-
-for tool in oiiotool idiff iinfo; do
-    command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
-done
-"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh" "$1" oiiotool idiff iinfo
 
 cat >"$work/rain.yaml" <<'YAML'
 virga: 1

@@ -1,21 +1,9 @@
 #!/usr/bin/env bash
 # Depth beside a plate: rain before and behind what it shows, against closed forms, and from several files.
 # Usage: footage_depth.sh VIRGA CHECK_DEPTH
-set -u
-virga=$1 check_depth=$2
-device=${VIRGA_TEST_DEVICE:-cpu}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-}
-
-python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
-command -v oiiotool >/dev/null || { echo "skipped: oiiotool is not installed"; exit 77; }
-"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+here=$(cd "$(dirname "$0")" && pwd)
+check_depth=$2
+. "$here/common.sh" "$1" python3 oiiotool
 
 # Depth from 1 m at the left to 100 m at the right, as numpy.save writes it; and a small one of three rows.
 python3 - "$work" <<'PYTHON' || exit 1

@@ -2,20 +2,8 @@
 # A lens in the program: blur by depth agrees with sub-frames that look through the lens, the focus follows keys and
 # names, panes are blurred by their own depth, and what is wrong with a lens is one line.
 # Usage: lens.sh VIRGA
-set -u
-virga=$1
-device=${VIRGA_TEST_DEVICE:-cpu}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-}
-
-command -v oiiotool >/dev/null || { echo "skipped: oiiotool is not installed"; exit 77; }
-"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh" "$1" oiiotool
 
 # A floor, a thin pole before the camera, a wall behind with lamps in it, and a board between them, which is in focus.
 quad() { # NAME MATERIAL x0 x1 y0 y1 z

@@ -2,21 +2,8 @@
 # Water that the program simulates: it falls as bodies do, keeps its volume, loses energy, and is the same in a frame
 # that is rendered alone; what is wrong with its keys is one line.
 # Usage: solver.sh VIRGA
-set -u
-virga=$1
-device=${VIRGA_TEST_DEVICE:-cpu}
 here=$(cd "$(dirname "$0")" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-}
-
-python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
-"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+. "$here/common.sh" "$1" python3
 # The first box stands on the floor, the second falls for 0.25 s beside it.
 cat >"$work/pool.yaml" <<'YAML'
 virga: 1

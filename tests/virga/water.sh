@@ -1,21 +1,8 @@
 #!/usr/bin/env bash
 # Water from files of particles, from the files to surfels and statistics; what is wrong with the files is one line.
 # Usage: water.sh VIRGA
-set -u
-virga=$1
-device=${VIRGA_TEST_DEVICE:-cpu}
 here=$(cd "$(dirname "$0")" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-}
-
-python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
-"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+. "$here/common.sh" "$1" python3
 python3 "$here/make_particles.py" "$work" 4
 cat >"$work/ball.yaml" <<'YAML'
 virga: 1

@@ -1,0 +1,19 @@
+# Sourced by tests of the program, with it and the programs that they need: `. common.sh "$1" python3 oiiotool`.
+# Sets up a folder to work in and a count of failures. Skips (77) without one of the programs, or without a device.
+set -u
+virga=$1
+shift
+device=${VIRGA_TEST_DEVICE:-cpu}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+}
+
+for program in "$@"; do
+    command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
+done
+"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
