@@ -15,7 +15,7 @@ typedef enum virga_binding_source {
     VIRGA_SOURCE_BUFFER, /* a virga_buffer *; NULL: nothing */
     VIRGA_SOURCE_RING,   /* a virga_ring, at a dynamic offset */
     VIRGA_SOURCE_TEXELS, /* a virga_buffer *, as texels */
-    VIRGA_SOURCE_IMAGE,  /* a virga_image_2d *: its first layer, in the layout GENERAL */
+    VIRGA_SOURCE_IMAGE,  /* a virga_image_2d *: its first layer, in the layout GENERAL; NULL: nothing */
 } virga_binding_source;
 
 typedef enum virga_binding_sampler { VIRGA_SAMPLER_NEAREST, VIRGA_SAMPLER_LINEAR } virga_binding_sampler;

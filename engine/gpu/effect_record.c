@@ -120,10 +120,12 @@ static virga_bound bound_of(const virga_effect *effect, const virga_binding_kind
         const virga_buffer *buffer = *(virga_buffer *const *)member;
         return (virga_bound){.texels = buffer ? buffer->texels : VK_NULL_HANDLE};
     }
-    case VIRGA_SOURCE_IMAGE:
-        return (virga_bound){.view = (*(virga_image_2d *const *)member)->layer_views[0],
+    case VIRGA_SOURCE_IMAGE: {
+        const virga_image_2d *image = *(virga_image_2d *const *)member;
+        return (virga_bound){.view = image ? image->layer_views[0] : VK_NULL_HANDLE,
                              .image_layout = VK_IMAGE_LAYOUT_GENERAL,
                              .sampler = sampler_of(effect->context, row)};
+    }
     default: return (virga_bound){0};
     }
 }

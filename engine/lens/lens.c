@@ -21,6 +21,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_height, 16, 16384, 1080),
     DEF(U32, half_resolution, 0, 1),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
+    DEF(U32, circles, 0, 1),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -64,16 +65,21 @@ enum {
     COUNT_APERTURE,
     COUNT_APERTURE_ROWS,
     COUNT_VIEWS,
+    COUNT_CIRCLES_WIDTH,
+    COUNT_CIRCLES_HEIGHT,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
     const virga_lens_def *def = given;
     const uint32_t step = def->half_resolution ? 2 : 1;
-    counts[COUNT_WIDTH] = def->max_width;
-    counts[COUNT_HEIGHT] = def->max_height;
-    counts[COUNT_COLUMNS] = (def->max_width + step - 1) / step;
-    counts[COUNT_ROWS] = (def->max_height + step - 1) / step;
+    const uint32_t width = def->circles ? 0 : def->max_width, height = def->circles ? 0 : def->max_height;
+    counts[COUNT_WIDTH] = width;
+    counts[COUNT_HEIGHT] = height;
+    counts[COUNT_COLUMNS] = (width + step - 1) / step;
+    counts[COUNT_ROWS] = (height + step - 1) / step;
+    counts[COUNT_CIRCLES_WIDTH] = def->max_width - width;
+    counts[COUNT_CIRCLES_HEIGHT] = def->max_height - height;
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
                           ((counts[COUNT_ROWS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE);
     counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
@@ -105,6 +111,8 @@ static const virga_effect_image images[] = {
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
+    {"lens.circles", AT(circles), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+     COUNT_CIRCLES_WIDTH, COUNT_CIRCLES_HEIGHT, 1 + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     BLANK_DEPTH("lens.blank_depth", blank_depth),
     BLANK_COLOR("lens.blank_color", blank_color),
 };
@@ -138,8 +146,9 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    SAMPLED_IMAGE(COMPUTE, spreads), /* 25 */
-    {SAMPLED, COMPUTE},              /* 26 color of the layer on the scene */
+    SAMPLED_IMAGE(COMPUTE, spreads),        /* 25 */
+    {SAMPLED, COMPUTE},                     /* 26 color of the layer on the scene */
+    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE}, /* 27 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -157,12 +166,13 @@ static const virga_effect_pass passes[] = {
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
     PASS(paper, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
+    {"lens.circles", AT(circle), VIRGA_SPIRV_ROW(lens_circles_comp), .forms = VIRGA_LENS_LAYERS + 1},
 };
 
 static uint32_t pass_constant(const void *object)
 {
     const virga_lens *lens = object;
-    return lens->def.half_resolution ? VIRGA_LENS_HALVED : 0;
+    return lens->def.half_resolution && !lens->def.circles ? VIRGA_LENS_HALVED : 0;
 }
 
 static void fill_areas(virga_lens *lens)
@@ -182,7 +192,7 @@ static virga_result check_settings(const void *object, void *given, bool *change
 {
     const virga_lens *lens = object;
     virga_lens_settings *settings = given;
-    if (!lens->def.half_resolution)
+    if (!lens->def.half_resolution && !lens->def.circles)
         settings->max_radius_px =
             virga_clamp_setting_float(&lens->base.context->log, "lens_settings.max_radius_px, at full resolution",
                                       settings->max_radius_px, 1, VIRGA_LENS_MAX_RADIUS, changed);
@@ -206,8 +216,9 @@ static virga_result apply_settings(void *object, void *given)
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_lens *lens = object;
-    snprintf(line, size, "lens: pictures of up to %u x %u pixels%s", lens->def.max_width, lens->def.max_height,
-             lens->def.half_resolution ? ", blurred at half resolution" : "");
+    const char *how = lens->def.half_resolution ? ", blurred at half resolution" : "";
+    snprintf(line, size, "lens: %s of up to %u x %u pixels%s", lens->def.circles ? "circles of confusion" : "pictures",
+             lens->def.max_width, lens->def.max_height, lens->def.circles ? "" : how);
 }
 
 static void lens_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
@@ -243,7 +254,8 @@ static virga_lens_image picture_of(const virga_lens *lens, uint32_t slot)
 {
     const virga_image_2d *image = lens->picture_of_view[slot];
     const lens_prepared *seen = &lens->prepared[slot];
-    return (virga_lens_image){image->image, image->layer_views[0], seen->width, seen->height};
+    return image ? (virga_lens_image){image->image, image->layer_views[0], seen->width, seen->height}
+                 : (virga_lens_image){0};
 }
 
 void virga_lens_picture(const virga_lens *lens, virga_lens_image *picture)
@@ -262,6 +274,33 @@ void virga_lens_picture_view(virga_lens *lens, virga_prepared prepared, virga_le
     *picture = (virga_lens_image){0};
     if (lens && !virga_effect_find_view(&lens->base, "virga_lens_picture_view", prepared))
         *picture = picture_of(lens, lens->base.slot);
+}
+
+static virga_lens_image circles_of(const virga_lens *lens, uint32_t slot, uint32_t part)
+{
+    const virga_image_2d *image = lens->circles_of_view[slot];
+    const lens_prepared *seen = &lens->prepared[slot];
+    return image && part <= seen->layers
+               ? (virga_lens_image){image->image, image->layer_views[part], seen->width, seen->height}
+               : (virga_lens_image){0};
+}
+
+void virga_lens_circles(const virga_lens *lens, uint32_t part, virga_lens_image *circles)
+{
+    if (!circles)
+        return;
+    *circles = (virga_lens_image){0};
+    if (lens && lens->base.contents)
+        *circles = circles_of(lens, lens->base.newest_slot, part);
+}
+
+void virga_lens_circles_view(virga_lens *lens, virga_prepared prepared, uint32_t part, virga_lens_image *circles)
+{
+    if (!circles)
+        return;
+    *circles = (virga_lens_image){0};
+    if (lens && !virga_effect_find_view(&lens->base, "virga_lens_circles_view", prepared))
+        *circles = circles_of(lens, lens->base.slot, part);
 }
 
 double virga_lens_breathing(double focal_m, double focus_m)

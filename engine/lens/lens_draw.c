@@ -16,10 +16,8 @@
 
 /* ---- checks */
 
-static virga_result check_layer(const virga_log *log, const virga_lens_layer *layer, uint32_t index)
+static virga_result check_layer_depth(const virga_log *log, const virga_lens_layer *layer, uint32_t index)
 {
-    if (!layer->color.view || layer->color.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
-        return virga_wrong_argument(log, "layers[%u].color: expected an image view, and its layout", index);
     if (layer->on_scene > 1)
         return virga_wrong_argument(log, "layers[%u].on_scene: expected 0 or 1, got %u", index, layer->on_scene);
     if (layer->on_scene)
@@ -32,10 +30,19 @@ static virga_result check_layer(const virga_log *log, const virga_lens_layer *la
     return VIRGA_OK;
 }
 
+/* Circles of confusion need no colors. */
+static virga_result check_layer(const virga_lens *lens, const virga_lens_layer *layer, uint32_t index)
+{
+    const virga_log *log = &lens->base.context->log;
+    if (!lens->def.circles && (!layer->color.view || layer->color.before.layout == VK_IMAGE_LAYOUT_UNDEFINED))
+        return virga_wrong_argument(log, "layers[%u].color: expected an image view, and its layout", index);
+    return check_layer_depth(log, layer, index);
+}
+
 static virga_result check_view(const virga_lens *lens, const virga_view *view)
 {
     const virga_context *context = lens->base.context;
-    if (!view->color.view)
+    if (!view->color.view && !lens->def.circles)
         return virga_wrong_argument(&context->log, "virga_lens_prepare: expected a view with color");
     if (view->viewport[0] < 0 || view->viewport[1] < 0 || view->viewport[2] > (float)lens->def.max_width ||
         view->viewport[3] > (float)lens->def.max_height)
@@ -62,7 +69,7 @@ static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const v
     uint32_t on_scene = 0;
     result = check_view(lens, view);
     for (uint32_t i = 0; i < layer_count && !result; i++) {
-        result = check_layer(log, &layers[i], i);
+        result = check_layer(lens, &layers[i], i);
         on_scene += layers[i].on_scene;
     }
     if (!result && on_scene > 1)
@@ -84,7 +91,7 @@ static float ease(const virga_lens *lens, double time_s)
 
 static void fill_picture(const virga_lens *lens, const virga_view *view, virga_lens_gpu *out)
 {
-    const uint32_t step = lens->def.half_resolution ? 2 : 1;
+    const uint32_t step = lens->def.half_resolution && !lens->def.circles ? 2 : 1;
     out->depth_a = view->clip_from_view[10];
     out->depth_b = view->clip_from_view[14];
     out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
@@ -116,7 +123,9 @@ static void fill_lens(const virga_lens *lens, const virga_view *view, double tim
     const double aperture_m = settings->aperture_f > 0 ? (double)settings->focal_m / (double)settings->aperture_f : 0;
     const double pixels = 0.5 * (double)view->viewport[3] * fabs((double)view->clip_from_view[5]);
     out->circle_px_m = (float)(0.5 * aperture_m * pixels);
-    out->max_radius = fminf(settings->max_radius_px / (float)out->step, VIRGA_LENS_MAX_RADIUS);
+    out->max_radius = settings->max_radius_px / (float)out->step;
+    if (!lens->def.circles)
+        out->max_radius = fminf(out->max_radius, VIRGA_LENS_MAX_RADIUS);
     out->follow = settings->follow;
     out->focus_x = pixel_at(settings->focus_point[0], out->left, out->width);
     out->focus_y = pixel_at(settings->focus_point[1], out->top, out->height);
@@ -175,6 +184,12 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
     return result;
 }
 
+/* All layers of an image. */
+static virga_bound in_general(const virga_image_2d *image, VkSampler sampler)
+{
+    return (virga_bound){.view = image->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
+}
+
 static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_view *view,
                                  const virga_lens_layer *layers, uint32_t layer_count)
 {
@@ -183,9 +198,11 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     virga_effect_bound(&lens->base, lens->bindings, bound);
     bound[LENS_BIND_DEPTH] = virga_bound_or_blank(&view->depth, lens->blank_depth, context->nearest);
     bound[LENS_BIND_COLOR] = virga_bound_or_blank(&view->color, lens->blank_color, context->nearest);
-    bound[LENS_BIND_FIELDS_WRITTEN] =
-        (virga_bound){.view = lens->fields->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = context->linear};
-    bound[LENS_BIND_FIELDS] = bound[LENS_BIND_FIELDS_WRITTEN];
+    const virga_bound out = in_general(lens->def.circles ? lens->circles : lens->fields, context->linear);
+    for (uint32_t i = 0; lens->def.circles && i < LENS_BIND_CIRCLES; i++)
+        if (!bound[i].view && lens->bindings->kinds[i].source == VIRGA_SOURCE_IMAGE)
+            bound[i] = out; /* no pass uses it, but software Vulkan looks at every image of a set */
+    bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
     bound[LENS_BIND_ON_SCENE] = virga_bound_or_blank(NULL, lens->blank_color, context->nearest);
     for (uint32_t i = 0; i < VIRGA_LENS_LAYERS; i++) {
         const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
@@ -274,6 +291,12 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
     over(lens, cmd, "lens.combine", lens->combine[layers_form(view, view->all_sharp)], view->width, view->height);
 }
 
+static void record_circles(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    for (uint32_t part = 0; part <= view->layers; part++)
+        over(lens, cmd, "lens.circles", lens->circle[part], view->width, view->height);
+}
+
 virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
                                 const virga_lens_layer *layers, uint32_t layer_count, double time_s)
 {
@@ -302,7 +325,9 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
     virga_effect_first_contents(&lens->base, cmd);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &offset);
     virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
-    if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
+    if (lens->def.circles)
+        record_circles(lens, cmd, &filled);
+    else if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
         over(lens, cmd, "lens.paper", lens->paper[layers_form(&filled, is_linear(&filled))], filled.width,
              virga_groups_of(filled.height, VIRGA_LENS_COLUMN));
     else
@@ -330,6 +355,8 @@ static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd
 {
     virga_context *context = lens->base.context;
     const virga_effect_target *found;
+    if (lens->def.circles)
+        return virga_wrong_argument(&context->log, "%s: expected a lens with a picture; lens_def.circles is 1", call);
     virga_result result = virga_effect_check_draw(&lens->base, call, cmd, target, prepared, true, &found);
     if (result)
         return result;

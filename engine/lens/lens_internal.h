@@ -23,6 +23,7 @@ enum {
     LENS_BIND_LAYER_DEPTHS = LENS_BIND_LAYER_COLORS + VIRGA_LENS_LAYERS,
     LENS_BIND_SPREADS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
     LENS_BIND_ON_SCENE,
+    LENS_BIND_CIRCLES,
     LENS_BINDINGS,
 };
 
@@ -49,13 +50,14 @@ struct virga_lens {
     virga_buffer *tiles, *reaches;
     VIRGA_PER_VIEW(virga_image_2d, picture);
     VIRGA_PER_VIEW(virga_image_2d, fields);
+    VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
     virga_image_2d *aperture, *samples, *spreads, *blank_depth, *blank_color;
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach, *gather[LENS_GATHERS],
         *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS], *combine[2 * (VIRGA_LENS_LAYERS + 1)],
-        *paper[2 * (VIRGA_LENS_LAYERS + 1)];
+        *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
 };
 

@@ -230,6 +230,7 @@ void calls_fill_lens_def(calls *c, virga_lens_def *out)
     SMALL(max_width, 16, 32);
     SMALL(max_height, 16, 32);
     SMALL(half_resolution, 0, 1);
+    out->circles = calls_once_in(c, 4);
     if (!c->device->honest)
         CALLS_WILD_ALL(c, out);
 }

@@ -83,6 +83,13 @@ void call_virga_lens_picture_view(calls *c)
              calls_slip(c, 8) ? NULL : &picture);
 }
 
+void call_virga_lens_circles_view(calls *c)
+{
+    virga_lens_image circles;
+    CALLS_DO(c, virga_lens_circles_view, calls_pick(c, CALLS_LENS).object, some_view(c, CALLS_LENS), calls_below(c, 4),
+             calls_slip(c, 8) ? NULL : &circles);
+}
+
 /* A scene's functions call those of several effects: some may have recorded before one refuses. */
 void call_virga_scene_draw_view(calls *c)
 {

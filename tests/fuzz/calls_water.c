@@ -226,6 +226,13 @@ void call_virga_lens_picture(calls *c)
     CALLS_DO(c, virga_lens_picture, calls_pick(c, CALLS_LENS).object, calls_slip(c, 8) ? NULL : &picture);
 }
 
+void call_virga_lens_circles(calls *c)
+{
+    virga_lens_image circles;
+    CALLS_DO(c, virga_lens_circles, calls_pick(c, CALLS_LENS).object, calls_below(c, 4),
+             calls_slip(c, 8) ? NULL : &circles);
+}
+
 void call_virga_lens_fill_view(calls *c)
 {
     virga_view view = virga_default_view();

@@ -82,15 +82,15 @@ static inline void lens_paint_all(const lens_picture *picture, float gray, doubl
             lens_paint(picture, x, y, gray, depth_m);
 }
 
-/* The settings have an aperture whose circle of confusion has a radius of 10 px at 1/m away from the focus. */
-static inline void lens_fixture_open(lens_fixture *f, uint32_t width, uint32_t height, bool half_resolution)
+/* A lens of this definition, for pictures of that size. The settings have an aperture whose circle of confusion has a
+ * radius of 10 px at 1/m away from the focus. `bytes`: what is read back. */
+static inline void lens_fixture_open_with(lens_fixture *f, virga_lens_def def, uint32_t width, uint32_t height,
+                                          VkDeviceSize bytes)
 {
     memset(f, 0, sizeof *f);
     f->context = effect_fixture_open(&f->gpu, false, lens_fixture_log, f);
-    virga_lens_def def = virga_default_lens_def();
     def.max_width = width < 16 ? 16 : width;
     def.max_height = height < 16 ? 16 : height;
-    def.half_resolution = half_resolution;
     REQUIRE(virga_lens_create(f->context, &def, &f->lens) == VIRGA_OK);
     f->settings = virga_default_lens_settings();
     f->settings.focal_m = 0.05f;
@@ -109,8 +109,23 @@ static inline void lens_fixture_open(lens_fixture *f, uint32_t width, uint32_t h
     lens_picture_create(&f->scene, width, height);
     f->result = calloc((size_t)width * height * 4, sizeof(float));
     assert_non_null(f->result);
-    REQUIRE(host_buffer_create(&f->gpu.device, (VkDeviceSize)width * height * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               HOST_BUFFER_READBACK, "picture down", &f->download, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_buffer_create(&f->gpu.device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
+                               "picture down", &f->download, f->gpu.error, sizeof f->gpu.error));
+}
+
+static inline void lens_fixture_open(lens_fixture *f, uint32_t width, uint32_t height, bool half_resolution)
+{
+    virga_lens_def def = virga_default_lens_def();
+    def.half_resolution = half_resolution;
+    lens_fixture_open_with(f, def, width, height, (VkDeviceSize)width * height * 8);
+}
+
+/* A lens that writes circles of confusion. */
+static inline void lens_fixture_open_circles(lens_fixture *f, uint32_t width, uint32_t height, VkDeviceSize bytes)
+{
+    virga_lens_def def = virga_default_lens_def();
+    def.circles = 1;
+    lens_fixture_open_with(f, def, width, height, bytes);
 }
 
 /* Adds an empty layer at a depth (m). */
