@@ -14,8 +14,9 @@ vec3 plate_at(vec2 pixel, float pixels)
     const vec2 uv = pixel / plate_size();
     const float copied = max(max(plate_size().x, plate_size().y) / float(VIRGA_GLASS_COPY), 1.0);
     const float level = log2(max(pixels / copied, 1e-3));
-    // Only the nearest copy: drops are too small to show the border between two levels.
-    const float sharp = copied > 1.0 ? clamp(-level / log2(copied), 0.0, 1.0) : level < 0.0 ? 1.0 : 0.0;
+    // Only the nearest copy: drops are too small to show the border between two levels. The largest copy of a small
+    // picture has texels that are smaller than a pixel: looked up once a pixel, they do not add up to its light.
+    const float sharp = copied > 1.0 ? clamp(-level / log2(copied), 0.0, 1.0) : level < 0.5 ? 1.0 : 0.0;
     const int nearest = clamp(int(level + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
     return mix(copy_at(uv, nearest), host_color(textureLod(scene_color, uv, 0.0).rgb, uint(tint_given.w)), sharp);
 }
