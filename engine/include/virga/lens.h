@@ -15,7 +15,12 @@
  *     virga_lens_prepare(lens, cmd, &view, layers, layer_count, time_s);
  *
  * and inside rendering virga_lens_draw, which replaces the target's color. A host with passes of its own reads the
- * picture of virga_lens_picture instead.
+ * picture of virga_lens_picture instead. A host with a blur of its own asks for circles of confusion only
+ * (virga_lens_def.circles).
+ *
+ * A virga_scene has no lens. A scene records before the host draws, and draws in the host's pass. A lens works on the
+ * finished picture, among the host's own filters, and only the host knows whether that is before or after its
+ * anti-aliasing and what it keeps in layers. They meet in the view, see virga_lens_fill_view.
  *
  * Deterministic: the same pictures, settings and times give the same bits.
  * Thread-safety: as virga/vulkan.h says. */

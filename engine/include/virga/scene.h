@@ -2,7 +2,8 @@
  *
  * A host that wants all effects calls the functions of a scene. A host that wants a single effect needs only the header
  * of that effect. A scene holds rain and, optionally, the ground that it wets, the splashes that it makes there, panes
- * with drops, and water from the particles of a simulation.
+ * with drops, and water from the particles of a simulation. Focus is a filter of the host's finished picture and has an
+ * object of its own, virga/lens.h.
  */
 #ifndef VIRGA_SCENE_H
 #define VIRGA_SCENE_H
