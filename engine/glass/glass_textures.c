@@ -95,6 +95,30 @@ static void choose_textures(virga_glass *glass, glass_view_block *block)
     seen->has_textures = true;
 }
 
+/* How far a blade reaches at an angle to its middle, as shaders/lens/aperture.glsl has it. */
+static double blade_reach(double blade, double roundness, double angle)
+{
+    return cos(0.5 * blade) / cos(angle) * (1 - roundness) + roundness;
+}
+
+/* The opening of the lens, and the area of the corners that front_overlap.glsl has. */
+static void fill_opening(const virga_glass_settings *s, virga_glass_picture_gpu *look)
+{
+    const double roundness = (double)s->opening_roundness;
+    look->opening_blades = s->opening_blades < 3 || roundness >= 1 ? 0 : s->opening_blades;
+    look->opening_round = s->opening_roundness;
+    look->opening_turn = s->opening_deg * (float)(3.14159265358979 / 180);
+    look->opening_area = (float)3.14159265358979;
+    if (!look->opening_blades)
+        return;
+    const double blade = 2 * 3.14159265358979 / look->opening_blades, part = blade / VIRGA_GLASS_BLADE_PARTS;
+    double area = 0;
+    for (int i = 0; i < VIRGA_GLASS_BLADE_PARTS; i++)
+        area += 0.5 * sin(part) * blade_reach(blade, roundness, i * part - 0.5 * blade) *
+                blade_reach(blade, roundness, (i + 1) * part - 0.5 * blade);
+    look->opening_area = (float)(area * look->opening_blades);
+}
+
 void glass_fill_textures(virga_glass *glass, glass_view_block *block)
 {
     const virga_glass_settings *s = &glass->settings;
@@ -112,6 +136,7 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block)
     look->starburst_rad = fminf(s->receding_deg, STREAK_MAX_DEG) * (float)(3.14159265358979 / 180);
     look->starburst_turn = s->starburst_deg * (float)(3.14159265358979 / 180);
     look->starburst_rays = s->starburst_rays;
+    fill_opening(s, look);
     look->hemispheres = s->texture_shape == VIRGA_GLASS_TEXTURE_HEMISPHERE;
     look->quads_offset = look->bounds_offset + 2 * look->max_tiles;
     if (glass_is_front(s))

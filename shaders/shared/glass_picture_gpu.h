@@ -97,6 +97,10 @@ struct virga_glass_picture_gpu {
     float starburst_rad;  /* angle at which a fresh streak meets the glass: the steepest of them */
     float starburst_turn; /* rad, from u towards v: direction of the first ray */
     uint starburst_rays;  /* directions; a ray on both sides for each */
+    uint opening_blades;  /* (front) of the opening; 0: it is a disc */
+    float opening_round;  /* 0: straight blades; 1: a disc */
+    float opening_turn;   /* rad, of the blades */
+    float opening_area;   /* of the opening whose corners are 1 from its middle */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y
@@ -113,6 +117,8 @@ struct virga_glass_quad_gpu {
     uint point;       /* 1: no larger than a pixel, and spread over two by two */
     uint pad;
 };
+
+#define VIRGA_GLASS_BLADE_PARTS 4 /* straight parts that stand for a blade of the opening */
 
 #define VIRGA_GLASS_TEXTURE_GROUP  64 /* texels per workgroup of the pass that makes textures */
 #define VIRGA_GLASS_TEXTURE_LEVELS 4  /* of a texture: each half as wide as the one before */

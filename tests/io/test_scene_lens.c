@@ -52,7 +52,25 @@ static void its_pane_is_before_the_opening(void **state)
     near(pane.position_m[2], 0.035);
     near(pane.air_outward, 0.64);
     near(pane.veil, 0.25);
+    assert_int_equal(pane.opening_blades, 0);
     assert_int_equal(pane.wiper_count, 0);
+    scene_file_free(scene);
+}
+
+/* The drops' discs have the shape of all discs. */
+static void its_opening_is_that_of_the_camera(void **state)
+{
+    (void)state;
+    scene_file *scene = loaded_after("lens: {drops: true}\n");
+    scene_pane pane;
+    scene_wiper wiper;
+    scene->camera.blades = 7;
+    scene->camera.blade_roundness = 0.4;
+    scene->camera.blade_rotation_deg = -12;
+    glass_fill_front(scene, &pane, &wiper);
+    assert_int_equal(pane.opening_blades, 7);
+    near(pane.opening_roundness, 0.4);
+    near(pane.opening_deg, -12);
     scene_file_free(scene);
 }
 

@@ -279,6 +279,9 @@ static const field glass_fields[] = {
     F(starburst, 0, 1),
     F(starburst_rays, 1, 8),
     F(starburst_deg, -360, 360),
+    F(opening_blades, 0, 16),
+    F(opening_roundness, 0, 1),
+    F(opening_deg, -360, 360),
     F(air_outward, 0, 2),
     LIGHTS(virga_glass_settings),
 };

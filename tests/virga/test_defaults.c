@@ -232,6 +232,9 @@ static void panes(void **state)
     SAME(starburst);
     SAME(starburst_rays);
     SAME(starburst_deg);
+    SAME(opening_blades);
+    SAME(opening_roundness);
+    SAME(opening_deg);
     SAME(paper_shift);
     SAME(thickness_mm);
     SAME(tint[0]);

@@ -86,7 +86,8 @@ typedef struct scene_pane {
     uint32_t textures_per_frame;
     bool still_behind;
     double veil, starburst, starburst_deg;
-    uint32_t starburst_rays;
+    uint32_t starburst_rays, opening_blades;
+    double opening_roundness, opening_deg;
     double cell_m, affinity_size_m;
     uint32_t max_drops, max_texels;
     uint32_t texture_columns, texture_rows, texture_texels;

@@ -262,8 +262,8 @@ typedef enum virga_glass_style {
      * to its axis. Drops so near are far out of focus: each becomes a disc with a soft rim, about as large as the
      * opening seen from the pane, in which a share of the light is what the drop refracts. view.aperture_m and focus_m
      * say how large and how soft; with an aperture of 0 drops are sharp. The picture behind (view.color) should
-     * already be out of focus itself, as virga_lens makes it. Drops are drawn over everything, whatever the depth. The
-     * opening is round. Film is not drawn, and mist only as veil. There is no height map, so create such a pane with a
+     * already be out of focus itself, as virga_lens makes it. Drops are drawn over everything, whatever the depth. Film
+     * is not drawn, and mist only as veil. There is no height map, so create such a pane with a
      * small max_texels. Cost: 32 look-ups for each pixel of each drop's disc. virga_glass_draw_refraction draws
      * nothing, as no pixel shows one other. */
     VIRGA_GLASS_STYLE_FRONT = 3,
@@ -454,6 +454,17 @@ typedef struct virga_glass_settings {
 
     /* [-360; 360] direction of the first ray, from u towards v. Default 15. */
     float starburst_deg;
+
+    /* [0; 16] (front) blades of the lens's opening; below 3: it is round. Discs of drops get its shape, and the same way
+     * up as virga_lens gives to discs in front of the focus: use the values of virga_lens_settings in these three. Costs
+     * four arcs per blade and pixel of a disc, and four times as many where blades are not straight. Default 0. */
+    uint32_t opening_blades;
+
+    /* [0; 1] how round the blades are: 0 is straight, 1 a circle. Default 0. */
+    float opening_roundness;
+
+    /* [-360; 360] rotation of the blades (degrees). Default 0. */
+    float opening_deg;
 
     /* [0; 50] thickness of the glass (physical). Default 5. */
     float thickness_mm;

@@ -74,7 +74,9 @@ vec3 light_through(float opening)
     vec4 sum = vec4(0.0);
     for (int i = 0; i < SAMPLES; i++) {
         const vec2 at = middle + smaller * spiral(i);
-        const float weight = clamp((larger - length(at - other)) / side + 0.5, 1e-4, 1.0);
+        float weight = clamp((larger - length(at - other)) / side + 0.5, 1e-4, 1.0);
+        if (look.opening_blades > 0u)
+            weight *= clamp(opening * (1.0 - opening_reach((at - local) / opening)) / side + 0.5, 1e-4, 1.0);
         const Path path = path_through_drop(on_pane(at), d, side);
         sum += weight * vec4(water_light(path, d, Water(1.0, 0.0, 0.0, 1.0, vec2(0.0), LENS.y)), 1.0);
     }
@@ -118,7 +120,7 @@ vec3 light_of_streaks()
 
 void main()
 {
-    const float share = amount.y != 0.0 ? abs(amount.y) : opening_share(length(local), amount.x);
+    const float share = amount.y != 0.0 ? abs(amount.y) : opening_share(local, amount.x);
     if (share <= 0.0)
         discard;
     stand_on(vec2(quad_float(quad, 12u), quad_float(quad, 13u)));

@@ -39,7 +39,65 @@ float common_area(float t, float opening)
     return segment_area(smaller, half_chord, from_smaller) + segment_area(larger, half_chord, t - from_smaller);
 }
 
-float opening_share(float t, float opening)
+// An opening with blades is no disc. Its shape is A, with corners 1 from its middle, where the row of pixels runs down:
+// as in shaders/lens/aperture.glsl, so a drop's disc looks as any disc in front of the focus. Rays through it cross the
+// pane in `local` + opening A.
+
+// How far A reaches at an angle.
+float blade_reach(float angle)
 {
-    return min(common_area(t, opening) / (3.14159265 * opening * opening), 1.0);
+    const float blade = 6.2831853 / float(look.opening_blades), from_first = angle - look.opening_turn;
+    const float beside = from_first - blade * floor(from_first / blade + 0.5);
+    return mix(cos(0.5 * blade) / cos(beside), 1.0, look.opening_round);
+}
+
+// The radius of the opening whose edge goes through a point, in radii of the opening.
+float opening_reach(vec2 at)
+{
+    const float away = length(at);
+    return look.opening_blades == 0u || away < 1e-6 ? away : away / blade_reach(atan(at.y, at.x));
+}
+
+float sector(vec2 a, vec2 b) { return 0.5 * atan(a.x * b.y - a.y * b.x, dot(a, b)); }
+
+// The area that a disc of radius 1 around the origin and the triangle of the origin, a and b have in common; less than
+// 0 if b is to the right of a.
+float common_triangle(vec2 a, vec2 b)
+{
+    const vec2 along = b - a;
+    const float square = max(dot(along, along), 1e-20), middle = -dot(a, along) / square;
+    const float apart = a.x * along.y - a.y * along.x, reach2 = square - apart * apart;
+    if (reach2 <= 0.0)
+        return sector(a, b);
+    const float reach = sqrt(reach2) / square;
+    const float enters = clamp(middle - reach, 0.0, 1.0), leaves = clamp(middle + reach, 0.0, 1.0);
+    const vec2 from = a + enters * along, to = a + leaves * along;
+    return (enters > 0.0 ? sector(a, from) : 0.0) + 0.5 * (from.x * to.y - from.y * to.x) +
+           (leaves < 1.0 ? sector(to, b) : 0.0);
+}
+
+// The same as common_area for an opening with blades whose middle is at `from`.
+float common_with_blades(vec2 from, float opening)
+{
+    if (length(from) >= 1.0 + opening)
+        return 0.0;
+    const uint corners = look.opening_blades * (look.opening_round > 0.0 ? VIRGA_GLASS_BLADE_PARTS : 1u);
+    const float part = 6.2831853 / float(corners), first = look.opening_turn - 3.14159265 / float(look.opening_blades);
+    vec2 corner = from + opening * vec2(cos(first), sin(first)); // between two blades, 1 from the middle
+    float sum = 0.0;
+    for (uint i = 1u; i <= corners; i++) {
+        const float angle = first + part * float(i);
+        const vec2 next = from + opening * blade_reach(angle) * vec2(cos(angle), sin(angle));
+        sum += common_triangle(corner, next);
+        corner = next;
+    }
+    return max(sum, 0.0);
+}
+
+// The share of the opening that a drop covers, for a pixel whose ray passes the drop's middle at `local`.
+float opening_share(vec2 local, float opening)
+{
+    const float covered =
+        look.opening_blades == 0u ? common_area(length(local), opening) : common_with_blades(local, opening);
+    return min(covered / (look.opening_area * opening * opening), 1.0);
 }

@@ -61,6 +61,9 @@ void glass_fill_front(const scene_file *scene, scene_pane *to, scene_wiper *wipe
     to->starburst = from->starburst;
     to->starburst_rays = from->starburst_rays;
     to->starburst_deg = from->starburst_deg;
+    to->opening_blades = scene->camera.blades;
+    to->opening_roundness = scene->camera.blade_roundness;
+    to->opening_deg = scene->camera.blade_rotation_deg;
     to->cell_m = from->cell_m;
     to->max_drops = from->max_drops;
     to->max_texels = 64; /* there is no height map */

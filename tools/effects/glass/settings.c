@@ -95,6 +95,9 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
     to->starburst = (float)from->starburst;
     to->starburst_rays = from->starburst_rays;
     to->starburst_deg = (float)from->starburst_deg;
+    to->opening_blades = from->opening_blades;
+    to->opening_roundness = (float)from->opening_roundness;
+    to->opening_deg = (float)from->opening_deg;
     to->thickness_mm = (float)from->thickness_mm;
     for (int c = 0; c < 3; c++)
         to->tint[c] = (float)from->tint[c];
