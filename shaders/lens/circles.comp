@@ -1,5 +1,5 @@
-// circles.comp - the signed radius (px) of the circle of confusion of each pixel, for a host that blurs by itself: of the
-// scene, or of one layer. Less than 0: in front of the focus.
+// circles.comp - the signed radius (px) of the circle of confusion of each pixel, for a host that blurs by itself: of
+// the scene, or of one layer. Less than 0: in front of the focus.
 // One invocation per pixel. Reads: depth, depths of layers, state. Writes: circles.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

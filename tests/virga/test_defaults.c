@@ -184,18 +184,24 @@ static void panes(void **state)
     (void)state;
     scene_file *scene = load_pane();
     const scene_pane *from = &scene_glass_of(scene)->panes[0];
-    {
-        const virga_glass_def def = virga_default_glass_def();
-        SAME(width_m);
-        SAME(height_m);
-        SAME(cell_m);
-        SAME(max_drops);
-        SAME(affinity_size_m);
-        SAME(max_texels);
-        SAME(texture_columns);
-        SAME(texture_rows);
-        SAME(texture_texels);
-    }
+    const virga_glass_def def = virga_default_glass_def();
+    SAME(width_m);
+    SAME(height_m);
+    SAME(cell_m);
+    SAME(max_drops);
+    SAME(affinity_size_m);
+    SAME(max_texels);
+    SAME(texture_columns);
+    SAME(texture_rows);
+    SAME(texture_texels);
+    scene_file_free(scene);
+}
+
+static void water_of_panes(void **state)
+{
+    (void)state;
+    scene_file *scene = load_pane();
+    const scene_pane *from = &scene_glass_of(scene)->panes[0];
     const virga_glass_settings def = virga_default_glass_settings();
     SAME(drag);
     SAME(meander);
@@ -223,6 +229,15 @@ static void panes(void **state)
     SAME(compress_steps);
     SAME(threshold);
     SAME(impact_s);
+    scene_file_free(scene);
+}
+
+static void looks_of_panes(void **state)
+{
+    (void)state;
+    scene_file *scene = load_pane();
+    const scene_pane *from = &scene_glass_of(scene)->panes[0];
+    const virga_glass_settings def = virga_default_glass_settings();
     SAME(style);
     SAME(textured_px);
     SAME(texture_shape);
@@ -292,9 +307,10 @@ static void enumerations_of_panes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(splashes), cmocka_unit_test(enumerations), cmocka_unit_test(ground),
-        cmocka_unit_test(panes),    cmocka_unit_test(wipers),       cmocka_unit_test(enumerations_of_panes),
-        cmocka_unit_test(water),    cmocka_unit_test(solver),
+        cmocka_unit_test(splashes), cmocka_unit_test(enumerations),          cmocka_unit_test(ground),
+        cmocka_unit_test(panes),    cmocka_unit_test(water_of_panes),        cmocka_unit_test(looks_of_panes),
+        cmocka_unit_test(wipers),   cmocka_unit_test(enumerations_of_panes), cmocka_unit_test(water),
+        cmocka_unit_test(solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -455,9 +455,9 @@ typedef struct virga_glass_settings {
     /* [-360; 360] direction of the first ray, from u towards v. Default 15. */
     float starburst_deg;
 
-    /* [0; 16] (front) blades of the lens's opening; below 3: it is round. Discs of drops get its shape, and the same way
-     * up as virga_lens gives to discs in front of the focus: use the values of virga_lens_settings in these three. Costs
-     * four arcs per blade and pixel of a disc, and four times as many where blades are not straight. Default 0. */
+    /* [0; 16] (front) blades of the lens's opening; below 3: it is round. Discs of drops get its shape, and the same
+     * way up as virga_lens gives to discs in front of the focus: use the values of virga_lens_settings in these three.
+     * Costs four arcs per blade and pixel of a disc, and four times as many if they are not straight. Default 0. */
     uint32_t opening_blades;
 
     /* [0; 1] how round the blades are: 0 is straight, 1 a circle. Default 0. */

@@ -147,8 +147,8 @@ VIRGA_API VkDeviceSize virga_lens_estimate(const virga_lens_def *def);
 
 /* A layer over the scene. */
 typedef struct virga_lens_layer {
-    /* Required, but not with def.circles. Premultiplied linear radiance and coverage, in the target's pixels, also where view.color is encoded.
-     * `before` as in virga_view.color. */
+    /* Required, but not with def.circles. Premultiplied linear radiance and coverage, in the target's pixels, also
+     * where view.color is encoded. `before` as in virga_view.color. */
     virga_image color;
 
     /* (optional) Depth of each pixel, as a value of the view's depth buffer, in the target's pixels. */
@@ -166,7 +166,8 @@ typedef struct virga_lens_layer {
  * frame, or up to VIRGA_MAX_VIEWS times for as many views. Without view->depth the scene is in focus everywhere. Color
  * that is NaN counts as 0; other values are clamped to +-65504.
  *
- * VIRGA_ERROR_INVALID: the view has no color (with def.circles it needs none), its viewport is larger than the definition's, or a layer is wrong.
+ * VIRGA_ERROR_INVALID: the view has no color (with def.circles it needs none), its viewport is larger than the
+ * definition's, or a layer is wrong.
  *
  * Cost: for each pixel of the work image, (2 r + 1)^2 samples, where r is the largest radius of blur that reaches its
  * tile of 16 x 16 pixels. */
@@ -213,12 +214,12 @@ VIRGA_API void virga_lens_picture(const virga_lens *lens, virga_lens_image *pict
 /* The same of any view that was prepared in this frame. All zero, with a line in the log, if there is no such view. */
 VIRGA_API void virga_lens_picture_view(virga_lens *lens, virga_prepared prepared, virga_lens_image *picture);
 
-/* (def.circles) Circles of confusion of the newest prepare: R32_SFLOAT, the signed radius in pixels of the target, by the
- * settings and the focus of that prepare. Less than 0: in front of the focus; 0: sharp. It is cut to max_radius_px, here
- * up to 126. `part` as in virga_lens_draw_part: 0 is the scene, 1 the first layer. All parts are layers of one array
- * image, and `view` shows the one of this part. Pixel (0, 0) is the viewport's first. Where a layer has nothing its
- * radius is that of its depth there. Layout and readiness as virga_lens_picture. All zero for a part that the prepare
- * did not have, or without def.circles. */
+/* (def.circles) Circles of confusion of the newest prepare: R32_SFLOAT, the signed radius in pixels of the target, by
+ * the settings and the focus of that prepare. Less than 0: in front of the focus; 0: sharp. It is cut to max_radius_px,
+ * here up to 126. `part` as in virga_lens_draw_part: 0 is the scene, 1 the first layer. All parts are layers of one
+ * array image, and `view` shows the one of this part. Pixel (0, 0) is the viewport's first. Where a layer has nothing
+ * its radius is that of its depth there. Layout and readiness as virga_lens_picture. All zero for a part that the
+ * prepare did not have, or without def.circles. */
 VIRGA_API void virga_lens_circles(const virga_lens *lens, uint32_t part, virga_lens_image *circles);
 
 /* The same of any view that was prepared in this frame. All zero, with a line in the log, if there is no such view. */
