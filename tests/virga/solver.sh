@@ -110,6 +110,36 @@ timeout 120 "$virga" render "$work/puddle.yaml" -o "$work/puddle" --device "$dev
 ! grep '^validation: ' "$work/log" || fail "a puddle: validation"
 python3 "$here/check_exchange.py" "$work/puddle" || fail "water of a puddle"
 
+# Rain falls on a board that stands still and one that is turned by its keys: nearly none comes to the ground.
+cat >"$work/roof.yaml" <<'YAML'
+virga: 1
+meshes: [{file: road.obj}]
+camera: {keys: [{position_m: [0, 1, 2], look_at_m: [0, 0, 0]}]}
+frames: {fps: 10, first: 1, last: 8, size: [32, 32]}
+rain: {rate_mm_h: 100, max_drops: 16384, occlusion_size: 128}
+ground: {on: true, cells: 128}
+splash: {on: false}
+water:
+  max_foam: 0
+  solver:
+    spacing_m: 0.1
+    walls: {low_m: [-3, 0, -3], high_m: [3, 3, 3]}
+    boxes: [{low_m: [-3, 0, -3], high_m: [-2.8, 0.2, -2.8]}]
+    bodies:
+      - {name: still, box_m: [0.2, 5.8, 2.9], position_m: [0, 2, -1.45], rotation_deg: [0, 0, 90]}
+      - {name: turned, box_m: [5.8, 2.9, 0.2], keys: [{time_s: 0, position_m: [0, 1.5, 1.45], rotation_deg: [90, 0, 0]},
+         {time_s: 1, position_m: [0, 2.5, 1.45], rotation_deg: [90, 0, 0]}]}
+YAML
+timeout 120 "$virga" render "$work/roof.yaml" -o "$work/roof" --device "$device" --stats --frames 5 \
+    >"$work/log" 2>&1 || { cat "$work/log"; fail "rain on bodies"; }
+! grep '^validation: ' "$work/log" || fail "rain on bodies: validation"
+python3 - "$work/roof/stats.jsonl" <<'END' || fail "rain on bodies"
+import json, sys
+water = json.loads(open(sys.argv[1]).readlines()[-1])["water_ul"]
+if not water["off_ground"] > 0.8 * water["rained_total"] > 0:
+    sys.exit(f"{water['off_ground']} of {water['rained_total']} ul did not fall on the ground")
+END
+
 # refuse WHAT OPTION...: rendering refuses the input, in one line that has WHAT.
 refuse() {
     local what=$1 said

@@ -43,6 +43,8 @@ typedef struct shot_layer {
     host_output output;
 } shot_layer;
 
+#define SHOT_MAX_OCCLUDERS 4096
+
 typedef struct shot {
     const scene_file *scene;
     shot_options options;
@@ -54,7 +56,7 @@ typedef struct shot {
     host_environment environment;
     host_mesh *meshes;
     uint32_t meshes_loaded;
-    virga_occluder *occluders;
+    virga_occluder *occluders; /* room for SHOT_MAX_OCCLUDERS; effects may add theirs when they open */
     uint32_t occluder_count;
     host_camera_key *camera_keys;
     uint32_t camera_key_capacity;

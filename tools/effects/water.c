@@ -327,6 +327,7 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     water_state *p = state;
     (void)camera;
     p->frame_s = time_s - scene_water_of(s->scene)->start_s;
+    water_move_occluders(s, p, time_s);
     if (p->solver.fluid && scene_water_of(s->scene)->solver.exchange.max_particles) {
         frame->exchange.fluid = p->solver.fluid;
         memcpy(frame->exchange.origin_m, scene_water_of(s->scene)->position_m, sizeof frame->exchange.origin_m);

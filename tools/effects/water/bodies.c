@@ -143,6 +143,7 @@ void water_close_bodies(shot *s, water_state *state)
     for (uint32_t i = 0; i < state->solver.body_count; i++) {
         water_body *body = &state->solver.bodies[i];
         host_mesh_destroy(&s->device, &body->mesh);
+        host_buffer_destroy(&s->device, &body->sheltering);
         free(body->vertices);
         free(body->indices);
     }

@@ -77,9 +77,10 @@ static bool create_copies(shot *s, water_state *state, char *error, size_t error
 
 bool water_open_solver(shot *s, water_state *state, char *error, size_t error_size)
 {
-    return water_open_bodies(s, state, error, error_size) && create_fluid(s, state, error, error_size) &&
-           set_fluid(s, state, error, error_size) && add_boxes(s, state, error, error_size) &&
-           water_add_bodies(s, state, error, error_size) && create_copies(s, state, error, error_size);
+    return water_open_bodies(s, state, error, error_size) && water_add_occluders(s, state, error, error_size) &&
+           create_fluid(s, state, error, error_size) && set_fluid(s, state, error, error_size) &&
+           add_boxes(s, state, error, error_size) && water_add_bodies(s, state, error, error_size) &&
+           create_copies(s, state, error, error_size);
 }
 
 void water_close_solver(shot *s, water_state *state)

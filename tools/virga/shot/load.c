@@ -11,14 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_OCCLUDERS 4096
-
 /* ---- meshes */
 
 bool shot_load_meshes(shot *s, char *error, size_t error_size)
 {
     s->meshes = calloc(s->scene->mesh_count ? s->scene->mesh_count : 1, sizeof *s->meshes);
-    s->occluders = calloc(MAX_OCCLUDERS, sizeof *s->occluders);
+    s->occluders = calloc(SHOT_MAX_OCCLUDERS, sizeof *s->occluders);
     if (!s->meshes || !s->occluders)
         return host_fail(error, error_size, "no memory for meshes");
     for (uint32_t i = 0; i < s->scene->mesh_count; i++) {
@@ -31,7 +29,7 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size)
         for (uint32_t k = 0; tool_effects[k]; k++)
             if (tool_effects[k]->mark_mesh)
                 tool_effects[k]->mark_mesh(s->scene, &s->meshes[i]);
-        const uint32_t room = MAX_OCCLUDERS - s->occluder_count;
+        const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
         const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
         s->occluder_count += more < room ? more : room;
         if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
