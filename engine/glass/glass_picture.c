@@ -148,7 +148,7 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
     for (uint32_t i = 0; i < 3 && !glass_is_all_textured(settings); i++) {
         const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
         const virga_compute_def def = {.shader = shader,
-                                       .layout = picture->bindings->layout,
+                                       .layout = picture->bindings->shared,
                                        .constant = mode | (picture->whole_map ? GLASS_GATHER_MAP : 0),
                                        .name = "glass.gather"};
         if (!picture->gather_passes[mode])
@@ -171,7 +171,7 @@ static virga_result create_reliefs(virga_glass *glass)
     virga_result result = VIRGA_OK;
     virga_compute_def def = {.shader = picture->lanes == 8 ? VIRGA_SPIRV(glass_draw_relief_narrow_comp)
                                                            : VIRGA_SPIRV(glass_draw_relief_comp),
-                             .layout = picture->bindings->layout,
+                             .layout = picture->bindings->shared,
                              .group = &glass->base.passes,
                              .name = "glass.relief"};
     for (def.constant = 0; def.constant < 2; def.constant++)

@@ -4,42 +4,16 @@
 #include "gpu/context.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
+#include "gpu/layouts.h"
 #include "gpu/retire.h"
 
 static void bindings_destroy(virga_context *context, virga_resource *resource)
 {
     virga_bindings *bindings = (virga_bindings *)resource;
     VIRGA_DESTROY(context, DescriptorPool, bindings->pool);
-    VIRGA_DESTROY(context, PipelineLayout, bindings->layout);
-    VIRGA_DESTROY(context, DescriptorSetLayout, bindings->set_layout);
+    virga_layout_release(context, bindings->shared);
     virga_free(&context->heap, bindings->sets);
     virga_free(&context->heap, bindings);
-}
-
-static virga_result create_layouts(virga_context *context, virga_bindings *made, uint32_t push_bytes)
-{
-    virga_result result = VIRGA_OK;
-    VkDescriptorSetLayoutBinding described[VIRGA_MAX_BINDINGS];
-    for (uint32_t i = 0; i < made->count; i++)
-        described[i] = (VkDescriptorSetLayoutBinding){.binding = i,
-                                                      .descriptorType = made->kinds[i].type,
-                                                      .descriptorCount = 1,
-                                                      .stageFlags = made->kinds[i].stages};
-    const VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                      .bindingCount = made->count,
-                                                      .pBindings = described};
-    VK_TRY(context, CreateDescriptorSetLayout(context->device, &set_info, NULL, &made->set_layout));
-    context->objects++;
-    const VkPushConstantRange range = {VIRGA_ALL_STAGES, 0, push_bytes};
-    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .setLayoutCount = 1,
-                                             .pSetLayouts = &made->set_layout,
-                                             .pushConstantRangeCount = push_bytes ? 1 : 0,
-                                             .pPushConstantRanges = &range};
-    VK_TRY(context, CreatePipelineLayout(context->device, &info, NULL, &made->layout));
-    context->objects++;
-error:
-    return result;
 }
 
 static virga_result create_sets(virga_context *context, virga_bindings *made)
@@ -56,7 +30,7 @@ static virga_result create_sets(virga_context *context, virga_bindings *made)
     for (uint32_t i = 0; i < made->count; i++)
         sizes[i] = (VkDescriptorPoolSize){made->kinds[i].type, sets};
     for (uint32_t i = 0; i < sets; i++)
-        layouts[i] = made->set_layout;
+        layouts[i] = made->shared->set_layout;
     const VkDescriptorPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                                   .maxSets = sets,
                                                   .poolSizeCount = made->count,
@@ -102,9 +76,11 @@ virga_result virga_bindings_create(virga_context *context, const virga_binding_k
     made->kinds = kinds;
     made->count = count;
     made->sets_per_frame = sets_per_frame;
-    virga_result result = create_layouts(context, made, push_bytes);
-    if (!result)
+    virga_result result = virga_layout_hold(context, kinds, count, push_bytes, &made->shared);
+    if (!result) {
+        made->layout = made->shared->layout;
         result = create_sets(context, made);
+    }
     if (result)
         bindings_destroy(context, &made->resource);
     else

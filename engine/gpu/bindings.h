@@ -34,8 +34,8 @@ typedef struct virga_bindings {
     virga_resource resource;         /* first */
     const virga_binding_kind *kinds; /* static */
     uint32_t count, sets_per_frame;
-    VkDescriptorSetLayout set_layout;
-    VkPipelineLayout layout;
+    struct virga_layout *shared; /* see gpu/layouts.h */
+    VkPipelineLayout layout;     /* of `shared` */
     VkDescriptorPool pool;
     VkDescriptorSet *sets; /* frames_in_flight x sets_per_frame */
 } virga_bindings;
@@ -50,8 +50,7 @@ typedef struct virga_bound {
     VkSampler sampler;
 } virga_bound;
 
-/* Set layout, pipeline layout (with push constants for all stages where push_bytes is not 0), pool and sets. `kinds`
- * must be static. */
+/* The layouts (with push constants for all stages where push_bytes is not 0), pool and sets. `kinds` must be static. */
 virga_result virga_bindings_create(virga_context *context, const virga_binding_kind *kinds, uint32_t count,
                                    uint32_t sets_per_frame, uint32_t push_bytes, virga_bindings **bindings);
 

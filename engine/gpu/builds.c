@@ -5,7 +5,7 @@
  *
  *     WAITING -> RUNNING -> DONE -> collected          WAITING -> DROPPED -> DONE -> collected
  *
- * The second sequence is for a pipeline that was retired before its build began. The host's job keeps a pointer to its
+ * The second sequence is for a pipeline whose users were retired before its build began. The host's job keeps a pointer to its
  * build. So a dropped build is freed only after its job ran (and did nothing), or with the context. */
 #include "gpu/builds.h"
 
@@ -23,7 +23,7 @@ enum { WAITING, RUNNING, DROPPED, DONE };
 typedef struct virga_build {
     struct virga_build *next;
     virga_context *context; /* read by jobs: its functions, device and pipeline cache, which never change */
-    virga_pipeline *owner;  /* NULL: retired */
+    virga_built *owner;     /* NULL: abandoned */
     bool graphics;
     virga_compute_def compute_def;
     virga_graphics_def graphics_def;
@@ -52,42 +52,41 @@ static void run(void *data)
 }
 
 /* The device built it, or failed. */
-static virga_result finish(virga_context *context, virga_pipeline *pipeline, VkResult made, VkPipeline handle,
+static virga_result finish(virga_context *context, virga_built *built, VkResult made, VkPipeline handle,
                            const char *call)
 {
-    virga_free(&context->heap, pipeline->code);
-    pipeline->code = NULL;
-    if (made != VK_SUCCESS)
-        return pipeline->failed = virga_vulkan_failed(context, made, call);
-    pipeline->pipeline = handle;
+    virga_free(&context->heap, built->code);
+    built->code = NULL;
+    built->closed = made != VK_SUCCESS;
+    if (built->closed)
+        return virga_vulkan_failed(context, made, call);
+    built->handle = handle;
     context->objects++;
-    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)handle, pipeline->name);
+    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)handle, built->name);
     return VIRGA_OK;
 }
 
-virga_result virga_build_request(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
+virga_result virga_build_request(virga_context *context, virga_built *built, const virga_compute_def *compute,
                                  const virga_graphics_def *graphics)
 {
     if (context->pipeline_build_mode == VIRGA_PIPELINES_IMMEDIATE) {
         VkPipeline handle = VK_NULL_HANDLE;
         const char *call = NULL;
         const VkResult made = make(context, compute, graphics, &handle, &call);
-        return finish(context, pipeline, made, handle, call);
+        return finish(context, built, made, handle, call);
     }
     virga_build *build = virga_alloc(&context->heap, sizeof *build);
     if (!build)
-        return virga_out_of_host_memory(context, pipeline->name);
+        return virga_out_of_host_memory(context, built->name);
     build->context = context;
-    build->owner = pipeline;
+    build->owner = built;
     build->graphics = graphics != NULL;
     if (graphics)
         build->graphics_def = *graphics;
     else
         build->compute_def = *compute;
     atomic_init(&build->state, WAITING);
-    pipeline->build = build;
-    if (pipeline->group)
-        pipeline->group->waiting++;
+    built->build = build;
     virga_build **end = &context->builds;
     while (*end)
         end = &(*end)->next;
@@ -113,19 +112,44 @@ virga_result virga_group_ready(const virga_pipeline_group *group)
     return group->failed ? group->failed : group->waiting ? VIRGA_NOT_READY : VIRGA_OK;
 }
 
-/* Moves the built pipeline to its owner. */
-static virga_result hand_over(virga_context *context, virga_build *build)
+/* One that waited has its pipeline now. If it was retired meanwhile, its group may be gone. */
+static void serve(virga_pipeline *pipeline, VkPipeline handle, virga_result result)
 {
-    virga_pipeline *pipeline = build->owner;
-    const virga_result result = finish(context, pipeline, build->result, build->made, build->call);
-    build->made = VK_NULL_HANDLE;
-    pipeline->build = NULL;
+    pipeline->waits = false;
+    pipeline->after = NULL;
+    if (pipeline->resource.retired)
+        return;
+    pipeline->pipeline = handle;
+    pipeline->failed = result;
     if (pipeline->group) {
         pipeline->group->waiting--;
         if (result && !pipeline->group->failed)
             pipeline->group->failed = result;
     }
+}
+
+/* Moves the built pipeline to its owner, and serves all that wait for it. */
+static virga_result hand_over(virga_context *context, virga_build *build)
+{
+    virga_built *built = build->owner;
+    const virga_result result = finish(context, built, build->result, build->made, build->call);
+    build->made = VK_NULL_HANDLE;
+    built->build = NULL;
+    while (built->waiting) {
+        virga_pipeline *pipeline = built->waiting;
+        built->waiting = pipeline->after;
+        serve(pipeline, built->handle, result);
+    }
     return result;
+}
+
+/* True if anybody still waits for it. */
+static bool is_wanted(const virga_built *built)
+{
+    const virga_pipeline *pipeline = built->waiting;
+    while (pipeline && pipeline->resource.retired)
+        pipeline = pipeline->after;
+    return pipeline != NULL;
 }
 
 virga_result virga_builds_collect(virga_context *context)
@@ -138,7 +162,7 @@ virga_result virga_builds_collect(virga_context *context)
             at = &build->next;
             continue;
         }
-        if (build->owner && build->owner->resource.retired)
+        if (build->owner && !is_wanted(build->owner))
             virga_build_abandon(context, build->owner);
         if (build->owner) {
             const virga_result result = hand_over(context, build);
@@ -160,21 +184,22 @@ static void drop(const virga_context *context, virga_build *build)
     atomic_compare_exchange_strong(&build->state, &expected, ours ? DONE : DROPPED);
 }
 
-void virga_build_abandon(virga_context *context, virga_pipeline *pipeline)
+void virga_build_abandon(virga_context *context, virga_built *built)
 {
-    if (!pipeline->build)
+    if (!built->build)
         return;
-    drop(context, pipeline->build);
-    pipeline->build->owner = NULL;
-    pipeline->build = NULL;
+    drop(context, built->build);
+    built->build->owner = NULL;
+    built->build = NULL;
+    built->closed = true;
 }
 
 bool virga_builds_cancel_retired(virga_context *context)
 {
     bool running = false;
     for (virga_build *build = context->builds; build; build = build->next) {
-        if (!build->owner || build->owner->resource.retired)
-            drop(context, build);
+        if (build->owner && !is_wanted(build->owner))
+            virga_build_abandon(context, build->owner);
         running = running || atomic_load(&build->state) == RUNNING;
     }
     return running;
@@ -214,7 +239,7 @@ virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, u
     const virga_result result = virga_builds_collect(context);
     uint32_t count = 0;
     for (const virga_build *build = context->builds; build; build = build->next)
-        count += build->owner && !build->owner->resource.retired;
+        count += build->owner && is_wanted(build->owner);
     if (remaining)
         *remaining = count;
     return result ? result : count ? VIRGA_NOT_READY : VIRGA_OK;

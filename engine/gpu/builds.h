@@ -6,20 +6,20 @@
 
 /* Builds the pipeline at once or queues it, as the context's definition says. Exactly one of the two definitions is
  * given; it is copied. On failure the caller still owns the pipeline. */
-virga_result virga_build_request(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
+virga_result virga_build_request(virga_context *context, virga_built *built, const virga_compute_def *compute,
                                  const virga_graphics_def *graphics);
 
 /* VIRGA_OK: all are built. VIRGA_NOT_READY: some are not yet. Else the reason why one never will be. */
 virga_result virga_pipelines_ready(const virga_pipeline *const *pipelines, uint32_t count);
 virga_result virga_group_ready(const virga_pipeline_group *group);
 
-/* Gives finished builds to their pipelines. Returns and logs the first failure. On the API's thread. */
+/* Gives finished builds to those that wait for them. Returns and logs the first failure. On the API's thread. */
 virga_result virga_builds_collect(virga_context *context);
 
-/* The pipeline is destroyed before it was built. */
-void virga_build_abandon(virga_context *context, virga_pipeline *pipeline);
+/* The pipeline ends before it was built. */
+void virga_build_abandon(virga_context *context, virga_built *built);
 
-/* Cancels the builds of retired pipelines that have not started. True while one still runs: then the layout that it
+/* Cancels the builds that only retired pipelines wait for and that have not started. True while one still runs: then the layout that it
  * reads must not be destroyed. */
 bool virga_builds_cancel_retired(virga_context *context);
 

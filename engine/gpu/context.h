@@ -55,6 +55,7 @@ struct virga_context {
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */
     uint32_t effect_serial;         /* of the newest effect */
+    uint32_t class_serial;          /* of the newest class of targets */
     uint32_t members;               /* effects, targets and scenes that exist: see virga_context_leave */
     bool closed;                    /* the host has destroyed it; it ends with its last member */
     struct virga_effect *first_effect;
@@ -65,7 +66,9 @@ struct virga_context {
     VkPipelineCache pipeline_cache;
     virga_pipeline_build_mode pipeline_build_mode;
     virga_pipeline_jobs pipeline_jobs;
-    struct virga_build *builds; /* waiting, in the order of the requests */
+    struct virga_build *builds;        /* waiting, in the order of the requests */
+    struct virga_built *first_built;   /* see gpu/pipelines.h */
+    struct virga_layout *first_layout; /* see gpu/layouts.h */
 };
 
 /* An effect, target or scene begins to use the context, and ends. If the host has destroyed the context already, it is

@@ -207,7 +207,7 @@ static virga_result create_passes(virga_effect *effect)
         const virga_effect_pass *row = &type->passes[i];
         virga_pipeline **pipelines = virga_effect_member(effect, row->member);
         virga_compute_def def = {.shader = row->shader,
-                                 .layout = layout_of(effect, row->layout)->layout,
+                                 .layout = layout_of(effect, row->layout)->shared,
                                  .group = &effect->passes,
                                  .name = row->name};
         for (uint32_t form = 0; form < form_count(row); form++) {

@@ -36,7 +36,7 @@ virga_result virga_effect_create_fills(virga_effect *effect)
     if (result)
         return result;
     const virga_compute_def def = {.shader = VIRGA_SPIRV(gpu_first_fill_comp),
-                                   .layout = effect->fill_bindings->layout,
+                                   .layout = effect->fill_bindings->shared,
                                    .group = &effect->passes,
                                    .name = "first_fill"};
     return virga_compute_pipeline_create(effect->context, &def, &effect->fill_pass);

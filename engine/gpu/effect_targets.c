@@ -68,7 +68,7 @@ static virga_graphics_def describe_row(const virga_effect *effect, const virga_e
     return (virga_graphics_def){.vertex = row->vertex[motion + (target->def.view_mask ? VIRGA_VIEWS_FORM : 0)],
                                 .fragment = row->fragment[written],
                                 .outputs = written,
-                                .layout = bindings->layout,
+                                .layout = bindings->shared,
                                 .blend_premultiplied = !row->replace,
                                 .depth_test = !row->no_depth,
                                 .cull_back = row->cull_back,
@@ -123,7 +123,7 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
 static bool waits(const virga_effect_target *target)
 {
     for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_DRAWS; i++)
-        if (target->draws[i] && target->draws[i]->build)
+        if (target->draws[i] && target->draws[i]->waits)
             return true;
     return false;
 }

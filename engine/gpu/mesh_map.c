@@ -6,6 +6,7 @@
 #include "core/settings.h"
 #include "gpu/context.h"
 #include "gpu/errors.h"
+#include "gpu/layouts.h"
 #include "gpu/pipelines.h"
 #include "gpu/record.h"
 #include "gpu/retire.h"
@@ -18,7 +19,7 @@
 static void mesh_map_destroy(virga_context *context, virga_resource *resource)
 {
     virga_mesh_map *map = (virga_mesh_map *)resource;
-    VIRGA_DESTROY(context, PipelineLayout, map->layout);
+    virga_layout_release(context, map->layout);
     virga_free(&context->heap, map);
 }
 
@@ -47,17 +48,12 @@ static virga_result create_images(virga_context *context, uint32_t layers, virga
 static virga_result create_pipelines(virga_context *context, virga_pipeline_group *group, virga_mesh_map *map)
 {
     virga_result result = VIRGA_OK;
-    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                       sizeof(virga_map_push)};
-    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .pushConstantRangeCount = 1,
-                                             .pPushConstantRanges = &range};
-    VK_TRY(context, CreatePipelineLayout(context->device, &info, NULL, &map->layout));
-    context->objects++;
+    TRY(virga_layout_hold(context, NULL, 0, sizeof(virga_map_push), &map->layout));
     virga_graphics_def def = {.vertex = VIRGA_SPIRV(gpu_mesh_map_vert),
                               .fragment = VIRGA_SPIRV(gpu_mesh_map_frag),
                               .layout = map->layout,
                               .render_pass = map->images->pass,
+                              .pass_class = VIRGA_PASS_OF_MESH_MAPS,
                               .color_count = 1,
                               .depth_test = true,
                               .depth_write = true,
@@ -202,8 +198,7 @@ static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_m
         context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     *bound = pipeline;
     const virga_map_push push = describe_push(map, view, mesh);
-    context->vk.CmdPushConstants(cmd, map->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                 sizeof push, &push);
+    context->vk.CmdPushConstants(cmd, map->layout->layout, VIRGA_ALL_STAGES, 0, sizeof push, &push);
     context->vk.CmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices, &mesh->vertex_offset);
     context->vk.CmdBindIndexBuffer(cmd, mesh->indices, mesh->index_offset, mesh->index_type);
     context->vk.CmdDrawIndexed(cmd, mesh->index_count, 1, 0, mesh->vertex_base, 0);

@@ -20,7 +20,7 @@ typedef struct virga_mesh_map {
     uint32_t strides[VIRGA_MAP_STRIDES];
     const char *name;
     virga_offscreen *images; /* depth and the surface; in read-only layouts outside of their draws */
-    VkPipelineLayout layout;
+    struct virga_layout *layout;
     virga_pipeline *pipelines[2][VIRGA_MAP_STRIDES]; /* for meshes without holes, and with */
 } virga_mesh_map;
 

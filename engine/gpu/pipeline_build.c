@@ -2,6 +2,7 @@
 #include "gpu/pipeline_build.h"
 
 #include "gpu/context.h"
+#include "gpu/layouts.h"
 
 #include <string.h>
 
@@ -55,7 +56,7 @@ VkResult virga_compute_build(const virga_context *context, const virga_compute_d
                       .module = module,
                       .pName = "main",
                       .pSpecializationInfo = &specialization},
-            .layout = def->layout};
+            .layout = def->layout->layout};
         *call = "vkCreateComputePipelines";
         result = context->vk.CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, pipeline);
     }
@@ -190,7 +191,7 @@ static VkGraphicsPipelineCreateInfo describe(const virga_graphics_def *def, grap
                                           .pDepthStencilState = &state->depth,
                                           .pColorBlendState = &state->blend,
                                           .pDynamicState = &state->dynamic,
-                                          .layout = def->layout,
+                                          .layout = def->layout->layout,
                                           .renderPass = def->render_pass,
                                           .subpass = def->subpass};
 }

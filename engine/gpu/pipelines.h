@@ -1,6 +1,7 @@
 /* gpu/pipelines.h - compute and graphics pipelines from embedded SPIR-V. Internal.
  *
- * A pipeline is built at once or later, see gpu/builds.c. */
+ * A pipeline is built at once or later, see gpu/builds.c. Objects of one kind, e.g. the panes of a scene, need the same
+ * pipelines. Each of them is built once in a context, and shared. */
 #ifndef VIRGA_GPU_PIPELINES_H
 #define VIRGA_GPU_PIPELINES_H
 
@@ -14,13 +15,15 @@ typedef struct virga_pipeline_group {
     virga_result failed; /* result of the first that failed; VIRGA_OK: none */
 } virga_pipeline_group;
 
+/* What an effect holds: a use of a pipeline that the device has built or will build. */
 typedef struct virga_pipeline {
-    virga_resource resource;     /* first */
-    VkPipeline pipeline;         /* null until it is built, or if the build failed */
-    const char *name;            /* static */
-    virga_pipeline_group *group; /* (optional) lives until the pipeline is retired */
-    struct virga_build *build;   /* NULL: not waiting to be built */
-    uint32_t *code;              /* a copy of the fragment shader, if it was patched for the target; NULL once built */
+    virga_resource resource;      /* first */
+    VkPipeline pipeline;          /* null until it is built, or if the build failed */
+    const char *name;             /* static */
+    virga_pipeline_group *group;  /* (optional) lives until the pipeline is retired */
+    struct virga_built *built;    /* the pipeline on the device */
+    struct virga_pipeline *after; /* the next one that waits for the same build */
+    bool waits;                   /* for the build */
     virga_result failed;
 } virga_pipeline;
 
@@ -40,7 +43,7 @@ typedef struct virga_spirv {
  * the context's small_views. */
 typedef struct virga_compute_def {
     virga_spirv shader;
-    VkPipelineLayout layout;
+    struct virga_layout *layout;
     uint32_t constant;
     virga_pipeline_group *group; /* (optional) */
     const char *name;            /* static */
@@ -59,11 +62,15 @@ typedef enum virga_target_outputs {
     VIRGA_OUTPUTS_FORMS = 4,
 } virga_target_outputs;
 
-/* The definition of a graphics pipeline. No pointer in it must outlive the call. */
+/* The render passes of all mesh maps are compatible. Other classes are the serials of target classes. */
+#define VIRGA_PASS_OF_MESH_MAPS UINT32_MAX
+
+/* The definition of a graphics pipeline. */
 typedef struct virga_graphics_def {
     virga_spirv vertex, fragment;
-    VkPipelineLayout layout;
+    struct virga_layout *layout;
     VkRenderPass render_pass; /* null: dynamic rendering into these formats */
+    uint32_t pass_class;      /* compatible render passes have the same number; 0: not known, so it is not shared */
     uint32_t subpass;
     VkFormat color_formats[VIRGA_MAX_ATTACHMENTS], depth_format, stencil_format;
     uint32_t view_mask;     /* of dynamic rendering */
@@ -88,5 +95,20 @@ typedef struct virga_graphics_def {
 
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **pipeline);
+
+/* A pipeline on the device, with the definition that it is found by. Exists as long as a virga_pipeline uses it. */
+typedef struct virga_built {
+    struct virga_built *next; /* of the context */
+    const char *name;         /* static */
+    bool is_graphics;
+    virga_compute_def compute;
+    virga_graphics_def graphics;
+    VkPipeline handle; /* null until it is built */
+    uint32_t users;
+    bool closed;               /* the build failed or was abandoned: nobody else may use it */
+    virga_pipeline *waiting;   /* the users that wait for the build */
+    struct virga_build *build; /* NULL: it is not waiting to be built */
+    uint32_t *code;            /* a copy of the fragment shader, if it was patched for the target; NULL once built */
+} virga_built;
 
 #endif

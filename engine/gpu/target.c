@@ -54,6 +54,7 @@ virga_result virga_target_class_join(virga_context *context, virga_target *targe
         target->class_of = virga_alloc(&context->heap, sizeof *target->class_of);
         if (!target->class_of)
             return virga_out_of_host_memory(context, "a target");
+        target->class_of->serial = ++context->class_serial;
         memcpy(&target->class_of->like, &like, sizeof like);
         target->class_of->next = context->first_target_class;
         context->first_target_class = target->class_of;
@@ -93,6 +94,7 @@ virga_target_outputs virga_target_outputs_of(const virga_target *target)
 virga_result virga_target_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline)
 {
     const virga_target_def *into = &target->def;
+    def.pass_class = target->class_of->serial;
     def.color_count = into->color_count;
     def.motion_attachment = def.outputs & VIRGA_OUTPUTS_MOTION ? into->motion_attachment : 0;
     def.reactive_attachment = def.outputs & VIRGA_OUTPUTS_REACTIVE ? into->reactive_attachment : 0;

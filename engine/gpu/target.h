@@ -7,6 +7,7 @@
 /* Targets whose pipelines are the same. It exists as long as a target or an effect's pipelines belong to it. */
 typedef struct virga_target_class {
     struct virga_target_class *next; /* of the context */
+    uint32_t serial;                 /* no other class of the context has or had it */
     virga_target_def like;           /* of any of its targets; two with all bytes equal are of one class */
     uint32_t targets, users;         /* targets, and effects that have pipelines for them */
 } virga_target_class;

@@ -272,7 +272,7 @@ static virga_result create(void *object)
                               &ground->height_map));
     TRY(virga_mesh_map_create(context, def->far_cells, 2, def->occluder_strides, "ground.far_height_map", group,
                               &ground->far.height_map));
-    TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->layout, group,
+    TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->shared, group,
                               &ground->ripples));
 error:
     return result;

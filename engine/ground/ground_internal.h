@@ -114,7 +114,7 @@ typedef struct ground_ripples {
     virga_pipeline *pipeline;
 } ground_ripples;
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, struct virga_layout *layout,
                                    virga_pipeline_group *group, ground_ripples *ripples);
 VkDeviceSize ground_ripples_bytes(uint32_t texels);
 void ground_ripples_retire(virga_context *context, ground_ripples *ripples);

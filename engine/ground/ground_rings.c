@@ -80,7 +80,7 @@ error:
     return result;
 }
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, struct virga_layout *layout,
                                    virga_pipeline_group *group, ground_ripples *ripples)
 {
     const virga_offscreen_def map = {.name = "ground.ripples",

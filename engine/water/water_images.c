@@ -52,7 +52,7 @@ static virga_result create_pipelines(virga_water *water, const water_sums *sums)
     virga_result result = VIRGA_OK;
     virga_graphics_def def = {.vertex = VIRGA_SPIRV(water_draw_splat_vert),
                               .fragment = VIRGA_SPIRV(water_draw_splat_depth_frag),
-                              .layout = water->picture.bindings->layout,
+                              .layout = water->picture.bindings->shared,
                               .render_pass = sums->images->pass,
                               .color_count = sums->images->color_count,
                               .no_color = true,

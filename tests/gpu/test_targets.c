@@ -119,6 +119,53 @@ static void waiting_pipelines_move_to_another_target_of_the_class(void **state)
     close_targets(&t);
 }
 
+/* ---- objects of one kind */
+
+static void a_second_object_compiles_nothing(void **state)
+{
+    targets t;
+    open_targets(&t, state, VIRGA_PIPELINES_IMMEDIATE);
+    const uint32_t none = watch.live[WATCH_Pipeline] / 2; /* rain's own, and none of a target */
+    draw_remade(&t, 7);
+    const uint32_t made = watch.made[WATCH_Pipeline], layouts = watch.made[WATCH_PipelineLayout];
+    virga_rain *first = t.rain;
+    t.rain = gpu_rain(t.context);
+    draw_remade(&t, 7);
+    assert_int_equal(watch.made[WATCH_Pipeline], made);
+    assert_int_equal(watch.made[WATCH_PipelineLayout], layouts);
+    gpu_wait(t.f);
+    virga_rain_destroy(&first);
+    draw_remade(&t, 7); /* it goes on with pipelines that the first one asked for */
+    assert_true(watch.live[WATCH_Pipeline] > none);
+    assert_int_equal(t.f->errors, 0);
+    close_targets(&t);
+    assert_int_equal(watch.live[WATCH_Pipeline], 0);
+    assert_int_equal(watch.live[WATCH_PipelineLayout], 0);
+}
+
+/* The first of two objects ends while both wait for the same builds. Builds that read a render pass are not shared. */
+static void builds_go_on_for_another_object(void **state)
+{
+    targets t;
+    uint32_t alone, both, left;
+    open_targets(&t, state, VIRGA_PIPELINES_DEFERRED);
+    virga_pipelines_build(t.context, 0, &alone);
+    virga_rain *first = t.rain;
+    t.rain = gpu_rain(t.context);
+    assert_int_equal(virga_rain_ready(t.rain), VIRGA_NOT_READY);
+    virga_pipelines_build(t.context, 0, &both);
+    assert_in_range(both, alone, alone + alone / 4);
+    virga_rain_destroy(&first);
+    virga_pipelines_build(t.context, 1, &left);
+    assert_int_equal(left, alone - 1);
+    assert_int_equal(virga_rain_attach(t.rain, t.picture.target), VIRGA_OK);
+    assert_int_equal(virga_pipelines_build(t.context, UINT32_MAX, &left), VIRGA_OK);
+    assert_int_equal(virga_rain_ready(t.rain), VIRGA_OK);
+    gpu_record(gpu_begin_frame(t.f, t.context), t.rain, &t.picture);
+    gpu_submit(t.f);
+    close_targets(&t);
+}
+
 /* ---- a render pass, by what it was created with */
 
 static void refuse(targets *t, const virga_target_def *def, const char *why)
@@ -193,6 +240,8 @@ int main(void)
         gpu_kept_test(compatible_targets_compile_nothing),
         gpu_kept_test(pipelines_of_destroyed_targets_are_released),
         gpu_kept_test(waiting_pipelines_move_to_another_target_of_the_class),
+        gpu_kept_test(a_second_object_compiles_nothing),
+        gpu_kept_test(builds_go_on_for_another_object),
         gpu_kept_test(a_target_that_is_not_its_render_pass_is_refused),
         gpu_kept_test(strict_contexts_ask_for_it),
     };

@@ -110,7 +110,8 @@ typedef struct virga_device_memory {
 } virga_device_memory;
 
 /* When the pipelines of effects are built. A scene with all effects has about 100 pipelines (140 with three targets).
- * A driver needs 1 to 80 ms for each one that is not in its caches. */
+ * A driver needs 1 to 80 ms for each one that is not in its caches. Objects of one kind in a context share pipelines: a
+ * second pane with the same settings builds none. */
 typedef enum virga_pipeline_build_mode {
     /* Inside create and attach, on the calling thread, before they return. For loading screens. */
     VIRGA_PIPELINES_IMMEDIATE = 0,
