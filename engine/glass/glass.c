@@ -195,7 +195,8 @@ static const virga_effect_buffer buffers[] = {
     {"glass.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_state_gpu), .first = FILL},
     {"glass.drops", AT(drops), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
     {"glass.selection", AT(selection), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_SELECTION_BYTES},
-    {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
+    /* A step without a tick shows what it lists. */
+    {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS, FILL},
     {"glass.active", AT(active), VIRGA_USE_STORAGE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
     {"glass.claims", AT(claims), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
     {"glass.occupants", AT(occupants), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
@@ -407,6 +408,7 @@ const virga_effect_type glass_type = {
     .draw_constant = glass_draw_constant,
     .lost = glass_lost,
     VIRGA_TABLE(state_row),
+    .check_state = glass_check_state,
 };
 
 VkDescriptorSet glass_write_set(virga_glass *glass)

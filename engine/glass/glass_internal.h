@@ -115,9 +115,16 @@ virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);
 
 /* ---- glass_step.c */
 virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9]); /* all zero: none */
+/* The grid of particles: its cells, and their side. */
+void glass_fill_grid(const virga_glass *glass, virga_glass_tick_gpu *tick);
 void glass_lost(void *glass, uint64_t frame, uint32_t did);
 void glass_read_statistics(void *glass, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
                       float sizes_m[VIRGA_GLASS_SIZES]);
+
+/* ---- glass_state.c */
+
+struct virga_state_check;
+void glass_check_state(const void *glass, struct virga_state_check *check);
 
 #endif

@@ -241,6 +241,17 @@ static double running_radius(const virga_glass *glass, const virga_glass_tick_gp
     return weight > 0 ? sqrt((double)tick->hold / weight) : INFINITY;
 }
 
+void glass_fill_grid(const virga_glass *glass, virga_glass_tick_gpu *out)
+{
+    const float particle_m = (float)((double)glass->settings.particle_radius_mm * 1e-3);
+    const float min = glass_min_grid_m(&glass->def);
+    out->grid_m = 2.5f * particle_m > min ? 2.5f * particle_m : min;
+    out->grid_columns = (uint32_t)ceil((double)glass->def.width_m / (double)out->grid_m - 1e-4);
+    out->grid_rows = (uint32_t)ceil((double)glass->def.height_m / (double)out->grid_m - 1e-4);
+    out->grid_columns += !out->grid_columns;
+    out->grid_rows += !out->grid_rows;
+}
+
 static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
 {
     const virga_glass_settings *s = &glass->settings;
@@ -254,12 +265,7 @@ static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->band_m = (float)((double)s->particle_band * 2 * particle);
     out->hold_back_nl = (uint32_t)fmin(cap * hold_back * hold_back * hold_back * 1e12, 4e9);
     out->hold_back_cells = s->hold_back_cells;
-    const float min = glass_min_grid_m(&glass->def);
-    out->grid_m = 2.5f * out->particle_m > min ? 2.5f * out->particle_m : min;
-    out->grid_columns = (uint32_t)ceil((double)glass->def.width_m / (double)out->grid_m - 1e-4);
-    out->grid_rows = (uint32_t)ceil((double)glass->def.height_m / (double)out->grid_m - 1e-4);
-    out->grid_columns += !out->grid_columns;
-    out->grid_rows += !out->grid_rows;
+    glass_fill_grid(glass, out);
 }
 
 /* Air that meets the outside of the pane at its middle spreads along it. Returns the speed at the middle of an edge. */

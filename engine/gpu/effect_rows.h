@@ -35,7 +35,13 @@
 /* ---- state: a member of the object that belongs to it */
 
 #define STATE(member) ROW(ROW_STATE, EFFECT, member)
-#define ROW_STATE(effect, member) {#member, offsetof(virga_##effect, member), sizeof(((virga_##effect *)0)->member)}
+#define ROW_STATE(effect, member) \
+    {#effect "." #member, offsetof(virga_##effect, member), sizeof(((virga_##effect *)0)->member), \
+     .kind = STATE_KIND(((virga_##effect *)0)->member)}
+#define STATE_KIND(value) _Generic((value), \
+    bool: VIRGA_STATE_BOOLS, bool *: VIRGA_STATE_BOOLS, \
+    double: VIRGA_STATE_DOUBLES, double *: VIRGA_STATE_DOUBLES, double (*)[2]: VIRGA_STATE_DOUBLES, \
+    default: VIRGA_STATE_BYTES)
 
 /* ---- buffers and images */
 

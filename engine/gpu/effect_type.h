@@ -163,6 +163,13 @@ typedef struct virga_effect_struct {
     uint32_t row_count;
 } virga_effect_struct;
 
+/* What a part of the state consists of, for its check. */
+typedef enum virga_state_kind {
+    VIRGA_STATE_BYTES,   /* checked by the effect, if at all */
+    VIRGA_STATE_BOOLS,   /* each 0 or 1 */
+    VIRGA_STATE_DOUBLES, /* each finite and not huge */
+} virga_state_kind;
+
 /* A part of the state that the object holds on the host, see gpu/state.h. */
 typedef struct virga_effect_state_row {
     const char *name; /* for log lines */
@@ -171,6 +178,7 @@ typedef struct virga_effect_state_row {
     uint32_t count;  /* index of the counts that multiply `bytes`; 0: none */
     bool pointed;    /* the member is a pointer to it */
     bool must_match; /* settings without rows: a state that has others is refused */
+    virga_state_kind kind;
 } virga_effect_state_row;
 
 /* A step of an effect that needs only time and position. */
@@ -179,6 +187,8 @@ typedef struct virga_effect_step {
     double camera_m[3];
     float wind_m_s[3];
 } virga_effect_step;
+
+struct virga_state_check;
 
 /* The view of the newest prepare, for virga_effect_type.draw. */
 #define VIRGA_PREPARED_NEWEST UINT64_MAX
@@ -234,6 +244,8 @@ typedef struct virga_effect_type {
     /* (optional) The device has not executed calls of a completed frame. `did` tells what they recorded. What later
      * frames need must be recorded again. */
     void (*lost)(void *object, uint64_t frame, uint32_t did);
+    /* (optional) Checks what a saved state says, before it is loaded: see gpu/state_check.h. */
+    void (*check_state)(const void *object, struct virga_state_check *check);
     /* (optional) A state was loaded: the parts of it on the host are in the object. */
     void (*state_loaded)(void *object);
     /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */

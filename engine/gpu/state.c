@@ -6,8 +6,14 @@
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/state_bytes.h"
+#include "gpu/state_check.h"
 
 #include <string.h>
+
+static VkDeviceSize aligned(VkDeviceSize size)
+{
+    return (size + VIRGA_STATE_ALIGNMENT - 1) / VIRGA_STATE_ALIGNMENT * VIRGA_STATE_ALIGNMENT;
+}
 
 /* ---- what belongs to a state */
 
@@ -58,6 +64,55 @@ static double value_of(const virga_setting_row *row, const void *settings)
     }
 }
 
+/* ---- its contents, see state_check.h */
+
+const void *virga_state_saved_row(const virga_state_check *check, const void *part)
+{
+    const char *saved = check->host;
+    for (uint32_t i = 0; i < check->effect->type->state_row_count; i++) {
+        const virga_effect_state_row *row = &check->effect->type->state_rows[i];
+        if (host_part(check->effect, row) == part)
+            return saved;
+        saved += aligned(host_bytes(check->effect, row));
+    }
+    return NULL;
+}
+
+const void *virga_state_saved_buffer(const virga_state_check *check, const virga_buffer *buffer)
+{
+    const char *saved = check->device;
+    for (uint32_t i = 0; i < check->effect->type->buffer_count; i++) {
+        const virga_buffer *here = buffer_of(check->effect, &check->effect->type->buffers[i]);
+        if (here && here == buffer)
+            return saved;
+        saved += here ? aligned(here->size) : 0;
+    }
+    return NULL;
+}
+
+void virga_state_refuse(virga_state_check *check, const char *name, double value, double min, double max)
+{
+    if (!check->failed)
+        virga_wrong_argument(&check->effect->context->log, "%s: %s: the state has %.15g, expected %.15g to %.15g",
+                             check->call, name, value, min, max);
+    check->failed = true;
+}
+
+void virga_state_check_rows(virga_state_check *check)
+{
+    const char *saved = check->host;
+    for (uint32_t i = 0; i < check->effect->type->state_row_count; i++) {
+        const virga_effect_state_row *row = &check->effect->type->state_rows[i];
+        const VkDeviceSize bytes = host_bytes(check->effect, row);
+        for (VkDeviceSize at = 0; row->kind == VIRGA_STATE_BOOLS && at < bytes; at++)
+            virga_state_expect(check, row->name, ((const unsigned char *)saved)[at], 0, 1);
+        for (VkDeviceSize at = 0; row->kind == VIRGA_STATE_DOUBLES && at < bytes; at += sizeof(double))
+            virga_state_expect(check, row->name, *(const double *)(saved + at), -VIRGA_STATE_MAX_NUMBER,
+                               VIRGA_STATE_MAX_NUMBER);
+        saved += aligned(bytes);
+    }
+}
+
 /* ---- a writer: records bytes into the host's buffer, or only counts them */
 
 #define CHUNK 4096 /* bytes of one vkCmdUpdateBuffer */
@@ -96,11 +151,6 @@ static void put(writer *out, const void *bytes, VkDeviceSize size)
             if (out->used == CHUNK)
                 flush(out);
         }
-}
-
-static VkDeviceSize aligned(VkDeviceSize size)
-{
-    return (size + VIRGA_STATE_ALIGNMENT - 1) / VIRGA_STATE_ALIGNMENT * VIRGA_STATE_ALIGNMENT;
 }
 
 static void align(writer *out)
@@ -339,6 +389,17 @@ static virga_result check_section(const char *call, const virga_state_effect *on
     return check_matches(log, call, effect, parts->host);
 }
 
+static virga_result check_contents(const char *call, const virga_effect *effect, const section_parts *parts,
+                                   const void *bytes)
+{
+    virga_state_check check = {
+        .effect = effect, .call = call, .host = parts->host, .device = (const char *)bytes + parts->device_offset};
+    virga_state_check_rows(&check);
+    if (effect->type->check_state && !check.failed)
+        effect->type->check_state(effect, &check);
+    return check.failed ? VIRGA_ERROR_INVALID : VIRGA_OK;
+}
+
 static void apply_host(virga_effect *effect, const section_parts *parts)
 {
     const char *saved = parts->host;
@@ -428,7 +489,8 @@ virga_result virga_effects_load(const virga_state_effect *effects, uint32_t coun
     const virga_state_header *header = from->bytes;
     reader in = {from->bytes, header->bytes, sizeof *header};
     for (uint32_t i = 0; i < count; i++)
-        if (check_section(call, &effects[i], &in, &parts[i]))
+        if (check_section(call, &effects[i], &in, &parts[i]) ||
+            check_contents(call, effects[i].effect, &parts[i], from->bytes))
             return VIRGA_ERROR_INVALID;
     for (uint32_t i = 0; i < count; i++)
         apply_host(effects[i].effect, &parts[i]);

@@ -351,6 +351,7 @@ const virga_effect_type ground_type = {
     .draw_layout = 1,
     .lost = ground_lost,
     VIRGA_TABLE(state_row),
+    .check_state = ground_check_state,
     .state_loaded = ground_state_loaded,
 };
 

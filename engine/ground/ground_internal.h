@@ -8,6 +8,7 @@
  *   ring_table.c      waves on shallow water
  *   ground_rings.c    the map of rings on puddles
  *   ground_step.c     ticks: the passes in their order
+ *   ground_state.c    checks a saved state
  *   ground_wet.c      the draw of wet ground over a host's picture */
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
@@ -229,5 +230,10 @@ void ground_write_sets(virga_ground *ground);
 void ground_lost(void *ground, uint64_t frame, uint32_t did);
 void ground_state_loaded(void *ground);
 void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
+
+/* ---- ground_state.c */
+
+struct virga_state_check;
+void ground_check_state(const void *ground, struct virga_state_check *check);
 
 #endif

@@ -356,6 +356,7 @@ const virga_effect_type rain_type = {
     VIRGA_CALLBACKS(extra_bytes, init, create, destroy, pass_constant, check_settings, apply_settings, prepare),
     .lost = rain_lost,
     VIRGA_TABLE(state_row),
+    .check_state = rain_check_state,
     .state_loaded = rain_state_loaded,
 };
 

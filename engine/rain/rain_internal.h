@@ -8,6 +8,7 @@
  *   rain_step.c         ticks and impacts
  *   rain_occlusion.c    maps of where no rain falls
  *   rain_hits.c         drops that hit a pane
+ *   rain_state.c        checks a saved state
  *   rain_draw.c         prepare, attach, draw, haze alone */
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H
@@ -256,5 +257,10 @@ virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_vie
                           virga_prepared *prepared);
 virga_result rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call);
+
+/* ---- rain_state.c */
+
+struct virga_state_check;
+void rain_check_state(const void *rain, struct virga_state_check *check);
 
 #endif

@@ -247,6 +247,7 @@ const virga_effect_type splash_type = {
     VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, prepare),
     .lost = splash_lost,
     VIRGA_TABLE(state_row),
+    .check_state = splash_check_state,
     .state_loaded = splash_state_loaded,
 };
 

@@ -6,6 +6,7 @@
  *   splash_tick.c         the block that a tick's passes read
  *   splash_step.c         ticks
  *   splash_spray.c        droplets that water hands over
+ *   splash_state.c        checks a saved state
  *   splash_draw.c         prepare, attach, draw
  */
 #ifndef VIRGA_SPLASH_INTERNAL_H
@@ -172,5 +173,10 @@ virga_result splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const vir
                             virga_prepared *prepared);
 virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                          const char *call);
+
+/* ---- splash_state.c */
+
+struct virga_state_check;
+void splash_check_state(const void *splash, struct virga_state_check *check);
 
 #endif

@@ -1,132 +1,10 @@
 /* test_scene_state.c - saved states: a scene that loads one goes on bit for bit as the scene that saved it, whatever it
  * did before; anything else is refused with one line that says what differs. */
-#include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
+#include "state_run.h"
 
 #include <virga/shared/random.h>
 
-enum { SAVED_AT = 7, FRAMES = 16, HEADER = 64 };
-
-typedef struct state_run {
-    gpu_fixture *f;
-    virga_context *context;
-    virga_scene *scene;
-    gpu_picture picture;
-    host_buffer vertices, indices, blob;
-    bool walk; /* the ground's window follows */
-    bool in_turns;
-} state_run;
-
-/* ---- a scene that is saved and loaded */
-
-static void set_weather(state_run *run)
-{
-    virga_rain_settings rain;
-    REQUIRE(small_shapes_set(run->scene) == VIRGA_OK && small_weather_set(run->scene) == VIRGA_OK);
-    virga_rain_get(virga_scene_rain(run->scene), &rain);
-    rain.occlusion_interval = run->in_turns ? 3 : 1;
-    REQUIRE(virga_rain_set(virga_scene_rain(run->scene), &rain) == VIRGA_OK);
-}
-
-static void open_buffer(state_run *run, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
-                        host_buffer *buffer)
-{
-    REQUIRE(host_buffer_create_with(&run->f->gpu.device, data, size, usage, "buffer", buffer, run->f->gpu.error,
-                                    sizeof run->f->gpu.error));
-}
-
-/* A buffer that a state can be saved to, and loaded from. */
-static void open_blob(state_run *run, VkDeviceSize size, host_buffer *blob)
-{
-    REQUIRE(host_buffer_create(&run->f->gpu.device, size,
-                               VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                               HOST_BUFFER_READBACK, "state", blob, run->f->gpu.error, sizeof run->f->gpu.error));
-}
-
-static void open_scene(state_run *run, uint32_t seed)
-{
-    virga_glass_def panes[SMALL_PANES];
-    virga_scene_def def = small_scene_def(panes);
-    def.rain.seed = seed;
-    def.rain.occlusion_slants = 2;
-    run->context = gpu_context(run->f);
-    gpu_picture_open(run->f, run->context, &run->picture);
-    REQUIRE(virga_scene_create(run->context, &def, &run->scene) == VIRGA_OK);
-    set_weather(run);
-    REQUIRE(virga_scene_attach(run->scene, run->picture.target) == VIRGA_OK);
-    open_buffer(run, small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &run->vertices);
-    open_buffer(run, small_square_indices, sizeof small_square_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                &run->indices);
-    open_blob(run, virga_scene_state_bytes(run->scene), &run->blob);
-    gpu_forget_log(run->f);
-}
-
-static void close_scene(state_run *run)
-{
-    host_buffer_destroy(&run->f->gpu.device, &run->vertices);
-    host_buffer_destroy(&run->f->gpu.device, &run->indices);
-    host_buffer_destroy(&run->f->gpu.device, &run->blob);
-    virga_scene_destroy(&run->scene);
-    gpu_picture_close(run->f, &run->picture);
-    virga_context_destroy(&run->context);
-}
-
-static void record(state_run *run, VkCommandBuffer cmd, uint32_t number)
-{
-    const virga_occluder square = small_occluder(run->vertices.buffer, run->indices.buffer);
-    virga_scene_pane panes[SMALL_PANES];
-    virga_view view = gpu_view(&run->picture);
-    const double ahead = run->walk ? 0.7 * number : 0;
-    const virga_scene_frame frame = {.dt_s = 0.021, /* not a whole number of ticks */
-                                     .camera_m = {0, 1.7, -ahead},
-                                     .ripple_center_m = {0, 0, -ahead},
-                                     .occluders = &square,
-                                     .occluder_count = 1,
-                                     .view = &view,
-                                     .panes = panes};
-    small_panes_lay(panes);
-    view.position_m[1] = view.open_position_m[1] = 1.7;
-    view.position_m[2] = view.open_position_m[2] = -ahead;
-    assert_int_equal(virga_scene_record(run->scene, cmd, &frame), VIRGA_OK);
-    host_target_begin_layer(&run->picture.images, cmd);
-    assert_int_equal(virga_scene_draw(run->scene, cmd, run->picture.target), VIRGA_OK);
-    host_target_end_layer(&run->picture.images, cmd);
-}
-
-static void save(state_run *run, VkCommandBuffer cmd)
-{
-    const virga_state_range range = {run->blob.buffer, 0, run->blob.size};
-    assert_int_equal(virga_scene_save(run->scene, cmd, &range), VIRGA_OK);
-}
-
-/* Plays frames and saves the last one. `load` (may be NULL) is loaded before the first one. */
-static void play(state_run *run, const host_buffer *load, uint32_t first, uint32_t last)
-{
-    virga_state_info info;
-    for (uint32_t number = first; number <= last; number++) {
-        VkCommandBuffer cmd = gpu_begin_frame(run->f, run->context);
-        if (load && number == first) {
-            const virga_state_source source = {load->mapped, load->size, load->buffer, 0};
-            if (virga_scene_load(run->scene, cmd, &source) != VIRGA_OK)
-                fail_msg("%s", run->f->last);
-        }
-        record(run, cmd, number);
-        if (number == last)
-            save(run, cmd);
-        gpu_submit(run->f);
-    }
-    gpu_wait(run->f);
-    assert_int_equal(virga_frame_completed(run->context, run->f->gpu.device.completed), VIRGA_OK);
-    host_buffer_invalidate(&run->f->gpu.device, &run->blob);
-    assert_int_equal(virga_state_seal(run->blob.mapped, run->blob.size, run->f->gpu.device.frame, &info), VIRGA_OK);
-    assert_int_equal(info.bytes, virga_scene_state_bytes(run->scene));
-}
-
-static void keep(state_run *run, const host_buffer *blob, host_buffer *copy)
-{
-    open_blob(run, blob->size, copy);
-    memcpy(copy->mapped, blob->mapped, blob->size);
-}
+enum { SAVED_AT = 7, FRAMES = 16 };
 
 /* The states are the same but for the frame's number and the hash. */
 static void assert_same_state(const void *a, const void *b, VkDeviceSize size)
@@ -263,6 +141,51 @@ static void a_damaged_or_cut_state_is_refused(void **state)
     close_scene(&run);
 }
 
+/* The first word of a part of an effect's section (gpu/state_bytes.h), and the last row of the host's part. */
+typedef struct section {
+    char name[16];
+    uint32_t index, def_values, setting_values, pad;
+    uint64_t host_bytes, device_bytes;
+} section;
+
+static void find_section(const host_buffer *blob, const char *name, uint32_t **last_row, uint32_t **device)
+{
+    char *at = (char *)blob->mapped + HEADER;
+    for (const char *end = (char *)blob->mapped + blob->size; at < end;) {
+        const section *here = (const section *)at;
+        char *host = at + sizeof *here + ((here->def_values + here->setting_values) * sizeof(double) + 15) / 16 * 16;
+        *device = (uint32_t *)(host + here->host_bytes);
+        *last_row = *device - 4;
+        if (!strcmp(here->name, name))
+            return;
+        at = (char *)*device + here->device_bytes;
+    }
+    fail_msg("no section %s", name);
+}
+
+/* They have the right hash, so it is their values that are looked at. */
+static void wrong_contents_are_named(void **state)
+{
+    state_run run = {.f = *state};
+    uint32_t *current = NULL, *end_droplet = NULL;
+    open_scene(&run, 5);
+    play(&run, NULL, 1, 2);
+    const uint64_t frame = run.f->gpu.device.frame;
+    find_section(&run.blob, "splash_def", &current, &end_droplet);
+    const uint32_t right[2] = {*current, *end_droplet};
+    *current = 7;
+    REQUIRE(virga_state_seal(run.blob.mapped, run.blob.size, frame, NULL) == VIRGA_OK);
+    assert_refused(&run, &run.blob, run.blob.size, "splash.current: the state has 7, expected 0 to 1");
+    *current = right[0];
+    *end_droplet = 100000;
+    REQUIRE(virga_state_seal(run.blob.mapped, run.blob.size, frame, NULL) == VIRGA_OK);
+    assert_refused(&run, &run.blob, run.blob.size, "splash.state.end_droplet: the state has 100000, expected 0 to 256");
+    *end_droplet = right[1];
+    REQUIRE(virga_state_seal(run.blob.mapped, run.blob.size, frame, NULL) == VIRGA_OK);
+    play(&run, &run.blob, 3, 3);
+    close_scene(&run);
+}
+
 /* A frame that is thrown away saves nothing, and the host learns it. */
 static void the_state_of_a_lost_frame_is_not_sealed(void **state)
 {
@@ -333,6 +256,7 @@ int main(void)
         gpu_kept_test(another_definition_is_named),
         gpu_kept_test(another_setting_is_named),
         gpu_kept_test(a_damaged_or_cut_state_is_refused),
+        gpu_kept_test(wrong_contents_are_named),
         gpu_kept_test(the_state_of_a_lost_frame_is_not_sealed),
         gpu_kept_test(a_load_after_the_step_is_refused),
         gpu_kept_test(wrong_ranges_are_refused),

@@ -29,8 +29,10 @@
  * smaller. Settings that the simulation depends on must be the same too, e.g. the rain rate; those that change only the
  * picture may differ. If something differs, the load is refused with one line in the log that names it and both values.
  *
- * Damaged bytes are refused by their hash. The hash does not protect against bytes that somebody made on purpose: load
- * only states from a source that you trust. */
+ * Damaged bytes are refused by their hash. The hash does not protect against bytes that somebody made on purpose, so
+ * the contents are checked too: what later steps use as an index, a count or a number of workgroups is refused if it is
+ * out of range, with a line that names it, its value and the range. Other wrong contents give a wrong picture, or steps
+ * that are refused. */
 #ifndef VIRGA_STATE_H
 #define VIRGA_STATE_H
 
@@ -138,8 +140,10 @@ VIRGA_API virga_result virga_glass_save(struct virga_glass *glass, VkCommandBuff
  *
  * VIRGA_NOT_READY, and nothing changes: pipelines are missing, see virga_scene_ready. VIRGA_ERROR_INVALID, and nothing
  * changes: the bytes are no sealed state of this version or are damaged, it is the state of other effects, its
- * definition or a setting differs, a step was recorded in this frame already, or an argument is wrong. The log says
- * which, with both values.
+ * definition or a setting differs, its contents are out of range, a step was recorded in this frame already, or an
+ * argument is wrong. The log says which, with both values.
+ *
+ * The host reads all bytes twice, for the hash and for the check of the contents: about a second and a half for 2 GB.
  *
  * If the frame is lost, so is the load: the log says so, and the host loads again. */
 VIRGA_API virga_result virga_scene_load(struct virga_scene *scene, VkCommandBuffer cmd, const virga_state_source *from);
