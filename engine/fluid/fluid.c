@@ -312,13 +312,37 @@ static virga_result check_settings(const void *object, void *settings, bool *cha
     return fluid_check_exchange(fluid, next) ? VIRGA_ERROR_INVALID : check_box(fluid, next);
 }
 
+/* ---- state */
+
+#define MATCHING(name, member)                                                 \
+    {                                                                          \
+        name, AT(member), sizeof((virga_fluid *)0)->member, .must_match = true \
+    }
+static const virga_effect_state_row state_rows[] = {
+    MATCHING("fluid_settings.low_m", settings.low_m),
+    MATCHING("fluid_settings.high_m", settings.high_m),
+    MATCHING("fluid_settings.gravity_m_s2", settings.gravity_m_s2),
+    MATCHING("the number of bodies", body_count),
+    STATE(particles),
+    STATE(blocks),
+    STATE(block_count),
+    STATE(bodies),
+    STATE(region_low_m),
+    STATE(region_high_m),
+    STATE(empties),
+};
+
 VIRGA_EFFECT_FUNCTIONS(fluid)
+VIRGA_EFFECT_STATE_FUNCTIONS(fluid)
 VIRGA_EFFECT_STATISTICS_FUNCTION(fluid)
 
 const virga_effect_type fluid_type = {
     VIRGA_EFFECT_TYPE(fluid, "fluid", "fluid_settings"),
     VIRGA_CALLBACKS(fit_device, init, fill_settings, check_settings, pass_constant, extra_bytes, destroy),
     .lost = fluid_lost,
+    VIRGA_TABLE(state_row),
+    .check_state = fluid_check_state,
+    .state_loaded = fluid_state_loaded,
 };
 
 /* ---- blocks of water */

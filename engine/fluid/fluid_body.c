@@ -273,6 +273,7 @@ virga_result virga_fluid_body_add(virga_fluid *fluid, const virga_fluid_body *gi
     memcpy(body.start.velocity, given->velocity_m_s, sizeof body.start.velocity);
     memcpy(body.start.spin, given->spin_rad_s, sizeof body.start.spin);
     fluid->bodies[fluid->body_count] = body;
+    fluid->seen[fluid->body_count] = (fluid_seen){0};
     if (index)
         *index = fluid->body_count;
     fluid->body_count++;
@@ -309,9 +310,9 @@ bool virga_fluid_body_get(virga_fluid *fluid, uint32_t index, virga_fluid_pose *
     if (!fluid || !pose || index >= fluid->body_count)
         return false;
     virga_effect_read_statistics(&fluid->base);
-    const fluid_body *body = &fluid->bodies[index];
-    const virga_fluid_body_gpu *from = body->newest_frame ? &body->newest : &body->start;
-    *pose = (virga_fluid_pose){.frame_index = body->newest_frame};
+    const fluid_seen *seen = &fluid->seen[index];
+    const virga_fluid_body_gpu *from = seen->newest_frame ? &seen->newest : &fluid->bodies[index].start;
+    *pose = (virga_fluid_pose){.frame_index = seen->newest_frame};
     memcpy(pose->position_m, from->origin, sizeof pose->position_m);
     memcpy(pose->rotation, from->rotation, sizeof pose->rotation);
     memcpy(pose->velocity_m_s, from->velocity, sizeof pose->velocity_m_s);
@@ -342,7 +343,7 @@ static void upload_maps(virga_fluid *fluid, VkCommandBuffer cmd)
 static bool needs_sending(fluid_body *body, float dt_s)
 {
     if (!body->is_driven)
-        return !body->sent_frame;
+        return !body->is_sent;
     const fluid_pose from = {
         {(double)body->start.center[0], (double)body->start.center[1], (double)body->start.center[2]},
         {(double)body->start.rotation[0], (double)body->start.rotation[1], (double)body->start.rotation[2],
@@ -369,7 +370,8 @@ void fluid_send_bodies(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s, virg
         if (needs_sending(body, dt_s)) {
             context->vk.CmdUpdateBuffer(cmd, fluid->body_states->buffer, i * sizeof body->start, sizeof body->start,
                                         &body->start);
-            body->sent_frame = body->sent_frame ? body->sent_frame : context->frame_index;
+            fluid->seen[i].sent_frame = body->is_sent ? fluid->seen[i].sent_frame : context->frame_index;
+            body->is_sent = true;
         }
         if (!body->is_driven)
             continue;
@@ -387,18 +389,18 @@ void fluid_send_bodies(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s, virg
 void fluid_bodies_lost(virga_fluid *fluid, uint64_t frame)
 {
     for (uint32_t i = 0; i < fluid->body_count; i++)
-        if (fluid->bodies[i].sent_frame == frame)
-            fluid->bodies[i].sent_frame = 0;
+        if (fluid->seen[i].sent_frame == frame)
+            fluid->bodies[i].is_sent = false;
 }
 
 void fluid_read_bodies(virga_fluid *fluid, uint64_t frame, const virga_fluid_body_gpu *bodies)
 {
     for (uint32_t i = 0; i < fluid->body_count; i++) {
-        fluid_body *body = &fluid->bodies[i];
-        if (!body->sent_frame || frame < body->sent_frame)
+        fluid_seen *seen = &fluid->seen[i];
+        if (!fluid->bodies[i].is_sent || frame < seen->sent_frame)
             continue;
-        body->newest = bodies[i];
-        body->newest_frame = frame;
+        seen->newest = bodies[i];
+        seen->newest_frame = frame;
         fluid->stats.contacts += bodies[i].contacts;
         fluid->stats.contacts_dropped += bodies[i].dropped;
     }

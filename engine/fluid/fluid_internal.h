@@ -5,6 +5,7 @@
  *   body_mesh.c   the mass of a body, by its mesh
  *   body_map.c    what it means for particles near it, on a grid
  *   fluid_exchange.c  water that comes from the ground and goes back
+ *   fluid_state.c  checks a saved state
  *   fluid_step.c  a step
  */
 #ifndef VIRGA_FLUID_FLUID_INTERNAL_H
@@ -14,6 +15,7 @@
 #include "fluid/fluid.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "gpu/state.h"
 #include "particles/particle_grid.h"
 
 #include <virga/shared/exchange.h>
@@ -33,16 +35,26 @@ typedef struct fluid_pose {
     double center[3], rotation[4];
 } fluid_pose;
 
-/* A body, as the host knows it. */
+/* A body, as the host knows it. It is part of the state, so it has no padding. */
 typedef struct fluid_body {
+    fluid_pose wanted; /* (driven) at the end of the next step */
     virga_fluid_shape_gpu shape;
     virga_fluid_body_gpu start; /* (free) what the device begins with; (driven) at the beginning of the next step */
-    fluid_pose wanted;          /* (driven) at the end of the next step */
-    bool is_driven;
-    uint64_t sent_frame;         /* in which it was sent to the device; 0: not yet */
-    virga_fluid_body_gpu newest; /* that was read back */
-    uint64_t newest_frame;
+    uint32_t is_driven;
+    uint32_t is_sent; /* the device has it */
+    uint32_t unused;
 } fluid_body;
+
+_Static_assert(sizeof(fluid_body) ==
+                   sizeof(fluid_pose) + sizeof(virga_fluid_shape_gpu) + sizeof(virga_fluid_body_gpu) + 12,
+               "no padding");
+
+/* What was read back of it. */
+typedef struct fluid_seen {
+    uint64_t sent_frame; /* in which it was sent to the device, or loaded with a state; 0: not yet */
+    virga_fluid_body_gpu newest;
+    uint64_t newest_frame;
+} fluid_seen;
 
 enum { FLUID_LAYOUT_GRID, FLUID_LAYOUT_ADD, FLUID_LAYOUT_STEP, FLUID_LAYOUT_EXCHANGE };
 
@@ -66,6 +78,7 @@ struct virga_fluid {
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
 
     fluid_body bodies[VIRGA_FLUID_MAX_BODIES];
+    fluid_seen seen[VIRGA_FLUID_MAX_BODIES];
     uint32_t body_count;
     uint32_t (*map)[4]; /* nodes and points of all bodies */
     uint32_t map_nodes;
@@ -113,8 +126,14 @@ void fluid_fill_exchange(virga_fluid *fluid, const virga_fluid_step_info *info, 
 void fluid_exchange_in(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info);
 void fluid_exchange_out(virga_fluid *fluid, VkCommandBuffer cmd);
 
+/* ---- fluid_state.c */
+
+struct virga_state_check;
+void fluid_check_state(const void *fluid, struct virga_state_check *check);
+
 /* ---- fluid_step.c */
 void fluid_lost(void *fluid, uint64_t frame, uint32_t did);
+void fluid_state_loaded(void *fluid);
 void fluid_read_statistics(void *fluid, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 #endif

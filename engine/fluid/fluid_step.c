@@ -64,6 +64,17 @@ void fluid_lost(void *object, uint64_t frame, uint32_t did)
     }
 }
 
+/* What was on its way when the state was loaded is not of this state. */
+void fluid_state_loaded(void *object)
+{
+    virga_fluid *fluid = object;
+    for (uint32_t slot = 0; slot < VIRGA_MAX_FRAMES_IN_FLIGHT; slot++)
+        fluid->sent[slot].frame = 0;
+    fluid->emptied_frame = 0;
+    for (uint32_t i = 0; i < fluid->body_count; i++)
+        fluid->seen[i] = (fluid_seen){.sent_frame = fluid->base.context->frame_index};
+}
+
 /* Remembers the blocks of this frame until the device has executed it. */
 static void remember_blocks(virga_fluid *fluid)
 {

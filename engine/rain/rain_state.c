@@ -54,7 +54,7 @@ static void check_maps(const virga_rain *rain, virga_state_check *check)
     const double all = rain->def.occlusion_cascades * rain->def.occlusion_slants;
     const uint32_t count = VIRGA_STATE_SAVED(check, rain->map_count);
     virga_state_expect(check, "rain.map_count", count, count ? all : 0, all);
-    expect_numbers(check, "rain.maps", (const double *)maps, sizeof rain->maps / sizeof(double));
+    expect_numbers(check, "rain.maps", (const double *)maps, sizeof rain->maps / (sizeof(double)));
     for (uint32_t i = 0; i < count && !check->failed; i++)
         virga_state_expect(check, "rain.maps.half_m", maps[i].half_m, 1e-3, VIRGA_STATE_MAX_NUMBER);
 }

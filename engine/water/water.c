@@ -27,9 +27,9 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_spray, 64, 262144, 4096),
     DEF(U32, max_droplets, 256, 4194304, 65536),
     DEF(U32, max_foam, 0, 1048576, 65536),
-    DEF(U32, max_width, 0, 16384, 1920),
-    DEF(U32, max_height, 0, 16384, 1080),
-    DEF(U32, max_parts, 0, 4194304),
+    DEF(U32, max_width, 0, 16384, 1920, .look = true),
+    DEF(U32, max_height, 0, 16384, 1080, .look = true),
+    DEF(U32, max_parts, 0, 4194304, .look = true),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
 };
 
@@ -62,21 +62,21 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, foam_radius_m, 1e-5, 1, 0.002),
     SETTING(FLOAT, foam_rise_m_s, 0, 10, 0.25),
     SETTING(FLOAT, foam_drag_hz, 0.01, 1000, 40),
-    SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29),
-    SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056),
-    SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103),
-    SETTING(FLOAT, scattering_1_m[0], 0, 1000),
-    SETTING(FLOAT, scattering_1_m[1], 0, 1000),
-    SETTING(FLOAT, scattering_1_m[2], 0, 1000),
-    SETTING(FLOAT, reflection, 0, 4, 1),
-    SETTING(FLOAT, refraction, 0, 4, 1),
-    SETTING(FLOAT, surfel_radius, 0.5, 4, 1.25),
-    SETTING(ENUM, shading, 0, VIRGA_WATER_SHADING_SURFELS, VIRGA_WATER_SHADING_PIXELS),
-    SETTING(FLOAT, surfel_difference, 0, 1000, 0.1),
-    SETTING(U32, surfel_divisions, 0, VIRGA_WATER_DIVISIONS, 3),
-    SETTING(FLOAT, soft_m, 0, 10, 0.002),
-    SETTING(FLOAT, foam_coverage, 0, 1, 0.3),
-    SETTING(FLOAT, light_gain, 0, 1000, 1),
+    SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29, .look = true),
+    SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056, .look = true),
+    SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103, .look = true),
+    SETTING(FLOAT, scattering_1_m[0], 0, 1000, .look = true),
+    SETTING(FLOAT, scattering_1_m[1], 0, 1000, .look = true),
+    SETTING(FLOAT, scattering_1_m[2], 0, 1000, .look = true),
+    SETTING(FLOAT, reflection, 0, 4, 1, .look = true),
+    SETTING(FLOAT, refraction, 0, 4, 1, .look = true),
+    SETTING(FLOAT, surfel_radius, 0.5, 4, 1.25, .look = true),
+    SETTING(ENUM, shading, 0, VIRGA_WATER_SHADING_SURFELS, VIRGA_WATER_SHADING_PIXELS, .look = true),
+    SETTING(FLOAT, surfel_difference, 0, 1000, 0.1, .look = true),
+    SETTING(U32, surfel_divisions, 0, VIRGA_WATER_DIVISIONS, 3, .look = true),
+    SETTING(FLOAT, soft_m, 0, 10, 0.002, .look = true),
+    SETTING(FLOAT, foam_coverage, 0, 1, 0.3, .look = true),
+    SETTING(FLOAT, light_gain, 0, 1000, 1, .look = true),
 };
 
 static virga_result check_def(const virga_log *log, void *given)
@@ -220,15 +220,16 @@ static const virga_effect_buffer buffers[] = {
     {"water.spray_list", AT(spray.list), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_SPRAY},
     {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_leavers_gpu),
-     .entry = 2 * sizeof(virga_leaver_gpu), .count = COUNT_SPRAY},
+     .entry = 2 * sizeof(virga_leaver_gpu), .count = COUNT_SPRAY, .first = VIRGA_FIRST_FILL},
     {"water.spray_pieces", AT(spray.pieces), VIRGA_USE_STORAGE, DEVICE,
-     .entry = 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu), .count = COUNT_SPRAY},
-    {"water.spray_table", AT(spray.table), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * 4, .count = COUNT_TABLE},
+     .entry = 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu), .count = COUNT_SPRAY, .first = VIRGA_FIRST_FILL},
+    {"water.spray_table", AT(spray.table), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * 4, .count = COUNT_TABLE,
+     .first = VIRGA_FIRST_FILL},
     {"water.spray_starts", AT(spray.starts), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_SPRAY},
     {"water.droplets", AT(spray.droplets), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_spray_gpu),
-     .count = COUNT_DROPLETS, .first = VIRGA_FIRST_FILL},
+     .count = COUNT_DROPLETS, .first = VIRGA_FIRST_FILL, .scratch = true},
     {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
-     .first = VIRGA_FIRST_FILL},
+     .first = VIRGA_FIRST_FILL, .scratch = true},
     {"water.splat_selection", AT(picture.selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1,
      .count = COUNT_SPLAT_SELECTION_BYTES},
     {"water.splat_list", AT(picture.list), VIRGA_USE_INDIRECT, DEVICE, .entry = 4, .count = COUNT_DRAWN_ENTRIES},
@@ -460,7 +461,15 @@ static void describe(const void *object, char *line, size_t size)
     snprintf(line, size, "water: up to %u particles and %u surfels", water->def.max_particles, water->def.max_surfels);
 }
 
+/* ---- state: what goes on from step to step; the surface is made anew in each */
+
+static const virga_effect_state_row state_rows[] = {
+    STATE(origin_m),    STATE(spray_goes_on),      STATE(spray_serial), STATE(spray_time_s), STATE(spray_hands_over),
+    STATE(spray_first), STATE(spray_first_time_s), STATE(spray_style),  STATE(foam_time_s),  STATE(foam_late_s),
+};
+
 VIRGA_EFFECT_FUNCTIONS(water)
+VIRGA_EFFECT_STATE_FUNCTIONS(water)
 VIRGA_EFFECT_STATISTICS_FUNCTION(water)
 VIRGA_EFFECT_VIEW_FUNCTIONS(water)
 
@@ -488,6 +497,8 @@ const virga_effect_type water_type = {
     .draw_layout = WATER_LAYOUT_DRAW,
     .draw = draw_if_sized,
     .max_views = offsetof(virga_water_def, max_views),
+    VIRGA_TABLE(state_row),
+    .check_state = water_check_state,
 };
 
 /* ---- queries */

@@ -6,6 +6,7 @@
  *   spray_kernel.c   the kernel of its droplets
  *   water_foam.c     the foam of a step
  *   water_images.c   the images that surfels are drawn into
+ *   water_state.c    checks a saved state
  *   water_draw.c     prepare and draw
  */
 #ifndef VIRGA_WATER_WATER_INTERNAL_H
@@ -14,6 +15,7 @@
 #include "gpu/context.h"
 #include "gpu/effect.h"
 #include "gpu/offscreen.h"
+#include "gpu/state.h"
 #include "particles/particle_grid.h"
 #include "water/water.h"
 
@@ -116,6 +118,11 @@ struct virga_water {
     virga_pipeline *block_mark, *block_scan, *block_compact, *surfel_count, *surfel_scan, *edge_write;
     virga_water_stats stats;
 };
+
+/* ---- water_state.c */
+
+struct virga_state_check;
+void water_check_state(const void *water, struct virga_state_check *check);
 
 /* ---- water_surface.c */
 void water_read_statistics(void *water, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);

@@ -228,6 +228,16 @@ typedef struct tool_effect {
     /* Records passes that are not part of the simulation. */
     bool (*step)(shot *s, void *state, VkCommandBuffer cmd, double dt_s, char *error, size_t error_size);
 
+    /* ---- checkpoints: states of its own, besides that of the simulation. They are as virga/state.h has them. */
+
+    /* Bytes of its state. 0: the scene has none. */
+    VkDeviceSize (*saved_bytes)(const void *state);
+    bool (*save)(shot *s, void *state, VkCommandBuffer cmd, const virga_state_range *to, char *error,
+                 size_t error_size);
+    /* Goes on from it; it is the state at `time_s`. */
+    bool (*load)(shot *s, void *state, VkCommandBuffer cmd, const virga_state_source *from, double time_s, char *error,
+                 size_t error_size);
+
     /* ---- image: called in the order of the effects' layers */
 
     const tool_layer *layers;

@@ -294,6 +294,24 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);
 }
 
+static VkDeviceSize saved_bytes(const void *state)
+{
+    const water_state *p = state;
+    return p->solver.fluid ? virga_fluid_state_bytes(p->solver.fluid) : 0;
+}
+
+static bool save_state(shot *s, void *state, VkCommandBuffer cmd, const virga_state_range *to, char *error,
+                       size_t error_size)
+{
+    return water_save_solver(s, state, cmd, to, error, error_size);
+}
+
+static bool load_state(shot *s, void *state, VkCommandBuffer cmd, const virga_state_source *from, double time_s,
+                       char *error, size_t error_size)
+{
+    return water_load_solver(s, state, cmd, from, time_s - scene_water_of(s->scene)->start_s, error, error_size);
+}
+
 static bool before_step(shot *s, void *state, VkCommandBuffer cmd, double time_s, double dt_s, char *error,
                         size_t error_size)
 {
@@ -512,6 +530,9 @@ const tool_effect water_effect = {
     .close = close_state,
     .apply = apply,
     .before_step = before_step,
+    .saved_bytes = saved_bytes,
+    .save = save_state,
+    .load = load_state,
     .fill_frame = fill_frame,
     .step = step,
     TOOL_ROWS(layer, layers),

@@ -25,6 +25,11 @@
  * occluders in the first frame after a load. They are drawn where they were. Occluders that have moved since then, with
  * occlusion_interval above 1, are the one case in which bits may differ.
  *
+ * A scene's state has that of its water: spray that flies on, and foam. The particles are the host's; where a
+ * virga_fluid simulates them, it has a state of its own, which the host saves and loads beside the scene's, in the same
+ * frame. Bodies are added before the load, the same as before the save; virga_fluid_body_get tells their loaded poses
+ * when the first step has completed.
+ *
  * A state belongs to a definition: sizes, ticks and seeds must be the same, as they are after the budget has made pools
  * smaller. Settings that the simulation depends on must be the same too, e.g. the rain rate; those that change only the
  * picture may differ. If something differs, the load is refused with one line in the log that names it and both values.
@@ -114,15 +119,20 @@ struct virga_rain;
 struct virga_ground;
 struct virga_splash;
 struct virga_glass;
+struct virga_water;
+struct virga_fluid;
 
 /* Returns the bytes of a state: the sum of what the effects hold, most of it in proportion to their pools. A scene of
- * rain alone has some megabytes, its ground has 80 bytes for each cell and 24 for each cell of the cache. It stays the
+ * rain alone has some megabytes; its ground has 80 bytes for each cell and 24 for each cell of the cache; water 2.2 KB
+ * for each of max_spray and 48 bytes for each of max_foam; a fluid 40 bytes for each of max_particles. It stays the
  * same for the life of the object. Returns 0 for NULL. */
 VIRGA_API VkDeviceSize virga_scene_state_bytes(const struct virga_scene *scene);
 VIRGA_API VkDeviceSize virga_rain_state_bytes(const struct virga_rain *rain);
 VIRGA_API VkDeviceSize virga_ground_state_bytes(const struct virga_ground *ground);
 VIRGA_API VkDeviceSize virga_splash_state_bytes(const struct virga_splash *splash);
 VIRGA_API VkDeviceSize virga_glass_state_bytes(const struct virga_glass *glass);
+VIRGA_API VkDeviceSize virga_water_state_bytes(const struct virga_water *water);
+VIRGA_API VkDeviceSize virga_fluid_state_bytes(const struct virga_fluid *fluid);
 
 /* Records a copy of the state, as it is after all steps that were recorded before. Outside rendering, in any frame, any
  * number of times. The device copies virga_..._state_bytes; nothing waits for it but later steps and the host.
@@ -134,6 +144,8 @@ VIRGA_API virga_result virga_rain_save(struct virga_rain *rain, VkCommandBuffer 
 VIRGA_API virga_result virga_ground_save(struct virga_ground *ground, VkCommandBuffer cmd, const virga_state_range *to);
 VIRGA_API virga_result virga_splash_save(struct virga_splash *splash, VkCommandBuffer cmd, const virga_state_range *to);
 VIRGA_API virga_result virga_glass_save(struct virga_glass *glass, VkCommandBuffer cmd, const virga_state_range *to);
+VIRGA_API virga_result virga_water_save(struct virga_water *water, VkCommandBuffer cmd, const virga_state_range *to);
+VIRGA_API virga_result virga_fluid_save(struct virga_fluid *fluid, VkCommandBuffer cmd, const virga_state_range *to);
 
 /* Records the load of a state: the object goes on from it with its next step. Outside rendering, before the step of the
  * frame. Views must be prepared again.
@@ -153,6 +165,8 @@ VIRGA_API virga_result virga_ground_load(struct virga_ground *ground, VkCommandB
 VIRGA_API virga_result virga_splash_load(struct virga_splash *splash, VkCommandBuffer cmd,
                                          const virga_state_source *from);
 VIRGA_API virga_result virga_glass_load(struct virga_glass *glass, VkCommandBuffer cmd, const virga_state_source *from);
+VIRGA_API virga_result virga_water_load(struct virga_water *water, VkCommandBuffer cmd, const virga_state_source *from);
+VIRGA_API virga_result virga_fluid_load(struct virga_fluid *fluid, VkCommandBuffer cmd, const virga_state_source *from);
 
 #ifdef __cplusplus
 }

@@ -150,6 +150,28 @@ bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double 
     return true;
 }
 
+/* ---- checkpoints */
+
+bool water_save_solver(shot *s, const water_state *state, VkCommandBuffer cmd, const virga_state_range *to, char *error,
+                       size_t error_size)
+{
+    return shot_ok(s, virga_fluid_save(state->solver.fluid, cmd, to), "saving the solver of water", error, error_size);
+}
+
+bool water_load_solver(shot *s, water_state *state, VkCommandBuffer cmd, const virga_state_source *from, double frame_s,
+                       char *error, size_t error_size)
+{
+    water_solver *solver = &state->solver;
+    if (!shot_ok(s, virga_fluid_load(solver->fluid, cmd, from), "loading the solver of water", error, error_size))
+        return false;
+    virga_fluid_particles(solver->fluid, NULL, &solver->count);
+    copy_states(solver, cmd);
+    solver->before_s = solver->now_s = frame_s;
+    solver->step_frame = s->device.frame;
+    solver->frame_s[s->device.frame % WATER_TIMES] = frame_s;
+    return true;
+}
+
 /* ---- particles at a time */
 
 /* As mix_curve in tools/io/particle_pair.c; `s` of the way from a to b. Where a slot has got another particle, that

@@ -101,6 +101,12 @@ bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double 
 /* Records the copy of what statistics need, after the step of the simulation. */
 bool water_read_solver(shot *s, water_state *state, VkCommandBuffer cmd, char *error, size_t error_size);
 
+/* The state of the solver, for checkpoints. After a load the newest step is that of the state. */
+bool water_save_solver(shot *s, const water_state *state, VkCommandBuffer cmd, const virga_state_range *to, char *error,
+                       size_t error_size);
+bool water_load_solver(shot *s, water_state *state, VkCommandBuffer cmd, const virga_state_source *from, double frame_s,
+                       char *error, size_t error_size);
+
 /* Fills the particles of a step at a time within the newest step of the solver. */
 bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
                        size_t error_size);

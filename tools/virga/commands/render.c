@@ -297,21 +297,27 @@ static bool open_stats(render_job *job)
 /* ---- frames */
 
 /* Goes on from the nearest checkpoint, if one is nearer than the current frame. One that can not be loaded is only
- * slower. */
-static void start_from_checkpoint(render_job *job, uint32_t frame)
+ * slower, unless a part of it was. */
+static bool start_from_checkpoint(render_job *job, uint32_t frame)
 {
     char reason[1024];
     uint32_t found;
+    bool torn;
     shot *s = &job->shot;
     if (!checkpoint_find(s, job->directory, frame, &found))
-        return;
+        return true;
     const bool preroll = found + 1 == job->scene->frames.first;
-    if (!checkpoint_load(s, job->directory, found, reason, sizeof reason))
+    const bool loaded = checkpoint_load(s, job->directory, found, &torn, reason, sizeof reason);
+    if (torn)
+        return host_fail(job->error, sizeof job->error, "the checkpoint of frame %u is damaged, delete it: %s", found,
+                         reason);
+    if (!loaded)
         fprintf(stderr, "virga render: a checkpoint is not used: %s\n", reason);
     else if (preroll)
         fprintf(stderr, "starts from the checkpoint after the pre-roll\n");
     else
         fprintf(stderr, "starts from the checkpoint of frame %u\n", found);
+    return true;
 }
 
 /* Steps to the frame before, frame by frame, as the way may be long and Ctrl-C is to be heard on it. */
@@ -432,8 +438,8 @@ static int end_frames(render_job *job)
 static int render_frames(render_job *job)
 {
     progress bar;
-    if (!all_there(job))
-        start_from_checkpoint(job, first_missing(job));
+    if (!all_there(job) && !start_from_checkpoint(job, first_missing(job)))
+        return stop_failed(job);
     if (!all_there(job) && !step_preroll(job))
         return interrupt_requested() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
     progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
@@ -442,9 +448,8 @@ static int render_frames(render_job *job)
             progress_step(&bar, "(there already)");
             continue;
         }
-        if (frame > job->frames[0] && job->there && job->there[frame - 1 - job->frames[0]])
-            start_from_checkpoint(job, frame); /* after a gap of frames that are there */
-        const bool stepped = step_before(job, frame);
+        const bool gap = frame > job->frames[0] && job->there && job->there[frame - 1 - job->frames[0]];
+        const bool stepped = (!gap || start_from_checkpoint(job, frame)) && step_before(job, frame);
         const bool stop = stepped && interrupt_requested();
         const char *left_out = NULL;
         if (stop || !stepped || !write_claimed(job, frame, &left_out)) {

@@ -1,6 +1,7 @@
 /* checkpoint.c - see checkpoint.h. */
 #include "shot/checkpoint.h"
 
+#include "effect.h"
 #include "packed_file.h"
 #include "shot/internal.h"
 
@@ -41,35 +42,75 @@ static void print_path(const shot *s, const char *directory, uint32_t frame, cha
         snprintf(path, size, "%s/checkpoint.%04u.virga", directory, frame);
 }
 
+/* ---- the parts of a file: the state of the simulation, and those that effects have besides */
+
+#define PART_ALIGNMENT 16
+
+/* Part 0 is the simulation's, part 1 + i that of effect i. */
+static VkDeviceSize part_bytes(const shot *s, uint32_t part)
+{
+    const tool_effect *effect = part ? tool_effects[part - 1] : NULL;
+    const VkDeviceSize bytes = !part                 ? virga_scene_state_bytes(s->simulation)
+                               : effect->saved_bytes ? effect->saved_bytes(s->states[part - 1])
+                                                     : 0;
+    return (bytes + PART_ALIGNMENT - 1) / PART_ALIGNMENT * PART_ALIGNMENT;
+}
+
+static bool is_part(uint32_t part)
+{
+    return !part || tool_effects[part - 1];
+}
+
 /* Opens the buffer that states are copied to and from. It stays for the life of the shot. */
 static bool open_buffer(shot *s, char *error, size_t error_size)
 {
-    return s->state.buffer || host_buffer_create(&s->device, virga_scene_state_bytes(s->simulation),
-                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                                 HOST_BUFFER_READBACK, "saved state", &s->state, error, error_size);
+    VkDeviceSize bytes = 0;
+    for (uint32_t part = 0; is_part(part); part++)
+        bytes += part_bytes(s, part);
+    return s->state.buffer ||
+           host_buffer_create(&s->device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                              HOST_BUFFER_READBACK, "saved state", &s->state, error, error_size);
 }
 
 /* ---- save */
 
+static bool record_save(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    virga_state_range range = {.buffer = s->state.buffer};
+    for (uint32_t part = 0; is_part(part); part++, range.offset += range.size) {
+        range.size = part_bytes(s, part);
+        if (range.size && !(part ? tool_effects[part - 1]->save(s, s->states[part - 1], cmd, &range, error, error_size)
+                                 : shot_ok(s, virga_scene_save(s->simulation, cmd, &range), "saving a checkpoint",
+                                           error, error_size)))
+            return false;
+    }
+    return true;
+}
+
+static bool seal(shot *s, char *error, size_t error_size)
+{
+    char *at = s->state.mapped;
+    for (uint32_t part = 0; is_part(part); at += part_bytes(s, part), part++)
+        if (part_bytes(s, part) && !shot_ok(s, virga_state_seal(at, part_bytes(s, part), s->device.frame, NULL),
+                                            "sealing a checkpoint", error, error_size))
+            return false;
+    return true;
+}
+
 static bool read_state(shot *s, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
-    const virga_state_range range = {s->state.buffer, 0, s->state.size};
-    if (!shot_begin(s, &cmd, error, error_size) ||
-        !shot_ok(s, virga_scene_save(s->simulation, cmd, &range), "saving a checkpoint", error, error_size) ||
+    if (!shot_begin(s, &cmd, error, error_size) || !record_save(s, cmd, error, error_size) ||
         !host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
         return false;
     host_buffer_invalidate(&s->device, &s->state);
-    return shot_ok(s, virga_state_seal(s->state.mapped, s->state.size, s->device.frame, NULL), "sealing a checkpoint",
-                   error, error_size);
+    return seal(s, error, error_size);
 }
 
 bool checkpoint_save(shot *s, const char *directory, char *error, size_t error_size)
 {
     char path[4096];
     checkpoint_head head, there;
-    if (virga_scene_water(s->simulation))
-        return host_fail(error, error_size, "checkpoints: a scene with water has none, as its particles are not saved");
     fill_head(s, s->frame_index, &head);
     print_path(s, directory, s->frame_index, path, sizeof path);
     if (packed_read_head(path, &there, sizeof there, NULL, NULL, 0) && !memcmp(&head, &there, sizeof head))
@@ -137,27 +178,44 @@ bool checkpoint_find(const shot *s, const char *directory, uint32_t before, uint
 
 /* ---- load */
 
-static bool write_state(shot *s, char *error, size_t error_size)
+static bool record_load(shot *s, VkCommandBuffer cmd, double time_s, bool *torn, char *error, size_t error_size)
+{
+    virga_state_source from = {.bytes = s->state.mapped, .buffer = s->state.buffer};
+    for (uint32_t part = 0; is_part(part); part++) {
+        from.size = part_bytes(s, part);
+        if (from.size &&
+            !(part
+                  ? tool_effects[part - 1]->load(s, s->states[part - 1], cmd, &from, time_s, error, error_size)
+                  : shot_ok(s, virga_scene_load(s->simulation, cmd, &from), "loading a checkpoint", error, error_size)))
+            return false;
+        *torn = true;
+        from.bytes = (const char *)from.bytes + from.size;
+        from.offset += from.size;
+    }
+    *torn = false;
+    return true;
+}
+
+static bool write_state(shot *s, double time_s, bool *torn, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
-    const virga_state_source source = {s->state.mapped, s->state.size, s->state.buffer, 0};
     if (!shot_begin(s, &cmd, error, error_size))
         return false;
-    const bool loaded =
-        shot_ok(s, virga_scene_load(s->simulation, cmd, &source), "loading a checkpoint", error, error_size);
+    const bool loaded = record_load(s, cmd, time_s, torn, error, error_size);
     return host_submit(&s->device, error, error_size) && host_wait(&s->device, error, error_size) && loaded;
 }
 
-bool checkpoint_load(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+bool checkpoint_load(shot *s, const char *directory, uint32_t frame, bool *torn, char *error, size_t error_size)
 {
     char path[4096];
+    *torn = false;
     const double time_s =
         is_preroll(s, frame) ? shot_time(s, frame + 1) - 1 / s->scene->frames.fps : shot_time(s, frame);
     print_path(s, directory, frame, path, sizeof path);
     /* A state belongs to the settings of its time. */
     if (!open_buffer(s, error, error_size) ||
         !packed_read(path, sizeof(checkpoint_head), s->state.mapped, s->state.size, error, error_size) ||
-        !shot_apply_settings(s, time_s, error, error_size) || !write_state(s, error, error_size))
+        !shot_apply_settings(s, time_s, error, error_size) || !write_state(s, time_s, torn, error, error_size))
         return false;
     s->frame_index = frame;
     s->preroll = 0;

@@ -14,7 +14,8 @@ bool checkpoint_save(shot *s, const char *directory, char *error, size_t error_s
  * devices are skipped, as are damaged ones; each reason is printed once. */
 bool checkpoint_find(const shot *s, const char *directory, uint32_t frame, uint32_t *found);
 
-/* Goes on from a checkpoint. Waits for the device. False: the shot is as it was, and `error` says why. */
-bool checkpoint_load(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+/* Goes on from a checkpoint. Waits for the device. False, and `error` says why: the shot is as it was; or, with *torn,
+ * a part of the file was refused after others had been loaded, and the shot can not go on. */
+bool checkpoint_load(shot *s, const char *directory, uint32_t frame, bool *torn, char *error, size_t error_size);
 
 #endif
