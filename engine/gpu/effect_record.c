@@ -31,8 +31,14 @@ virga_result virga_effect_check_step(const virga_effect *effect, const char *cal
 virga_result virga_effect_check_one_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                          const void *info)
 {
+    return virga_effect_check_step_after(effect, call, cmd, info, effect->step_frame);
+}
+
+virga_result virga_effect_check_step_after(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                           const void *info, uint64_t last_frame)
+{
     const virga_result result = virga_effect_check_step(effect, call, cmd, info);
-    if (result || effect->step_frame != effect->context->frame_index)
+    if (result || last_frame != effect->context->frame_index)
         return result;
     char again[96];
     snprintf(again, sizeof again, "%s: called again in frame %llu", call,

@@ -15,6 +15,10 @@ virga_result virga_effect_check_step(const virga_effect *effect, const char *cal
 virga_result virga_effect_check_one_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                          const void *info);
 
+/* The same for an effect that keeps the frame of its last step itself. */
+virga_result virga_effect_check_step_after(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                           const void *info, uint64_t last_frame);
+
 /* The ticks that a host requests for a step: `count` of them, beginning with `first`, at most `max`. */
 typedef struct virga_tick_range {
     uint32_t first, count, max;

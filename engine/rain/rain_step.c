@@ -242,24 +242,18 @@ static void advance(virga_rain *rain)
     rain->ticks++;
 }
 
-static uint32_t ticks_of_frame(const virga_rain *rain)
-{
-    return virga_ring_used(rain->base.context, &rain->tick_ring);
-}
-
 /* The number of whole ticks in the host's time. The rest is left for the next step, or dropped if a step may not run
  * that many ticks. */
 static uint32_t whole_ticks(virga_rain *rain, const virga_rain_step_info *info, bool *dropped)
 {
     const bool limited = info->max_ticks && info->max_ticks < rain->def.max_ticks_per_step;
-    const uint32_t max = limited ? info->max_ticks : rain->def.max_ticks_per_step, run = ticks_of_frame(rain);
-    const uint32_t left = max > run ? max - run : 0;
+    const uint32_t max = limited ? info->max_ticks : rain->def.max_ticks_per_step;
     rain->left_over_s += info->dt_s;
     /* Ticks that are short only by rounding count. Otherwise 1/24 s with ticks of 1/48 s would run 1, 2, 3, 2, ... */
     double whole = floor(rain->left_over_s / rain->def.tick_s + 1e-9);
-    if (whole > left) {
-        rain->stats.ticks_dropped += (uint64_t)whole - left;
-        whole = left;
+    if (whole > max) {
+        rain->stats.ticks_dropped += (uint64_t)whole - max;
+        whole = max;
         virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
                         "a step of %g s at ticks of %g s: only %g are run (%s)", info->dt_s, rain->def.tick_s, whole,
                         limited ? "the frame's max_ticks or step_budget_ms" : "max_ticks_per_step");
@@ -276,15 +270,14 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
     if (!rain)
         return VIRGA_ERROR_INVALID;
     const virga_log *log = &rain->base.context->log;
-    const virga_result result = virga_effect_check_step(&rain->base, "virga_rain_step", cmd, info);
+    const virga_result result =
+        virga_effect_check_step_after(&rain->base, "virga_rain_step", cmd, info, rain->step_set_frame);
     if (result)
         return result;
     if (virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3))
         return VIRGA_ERROR_INVALID;
     if (!(info->dt_s >= 0 && info->dt_s <= MAX_STEP_S))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 10 s, got %g", info->dt_s);
-    if (ticks_of_frame(rain) >= rain->def.max_ticks_per_step)
-        return virga_frame_not_begun(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
     return virga_effect_ready(&rain->base);
 }
 
@@ -307,10 +300,8 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain_begin_frame(rain, cmd);
     for (int axis = 0; axis < 3; axis++)
         rain->origin[axis] = (double)(float)info->camera_m[axis];
-    if (rain->step_set_frame != context->frame_index) {
-        rain->step_set = rain_write_set(rain, RAIN_STEP_SET, NULL);
-        rain->step_set_frame = context->frame_index;
-    }
+    rain->step_set = rain_write_set(rain, RAIN_STEP_SET, NULL);
+    rain->step_set_frame = context->frame_index;
     const VkDescriptorSet set = rain->step_set;
 
     /* Passes and copies of the previous frame may still read what this frame writes. */

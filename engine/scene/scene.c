@@ -340,12 +340,11 @@ static virga_result prepare_view(virga_scene *scene, VkCommandBuffer cmd, const 
     return result;
 }
 
-/* Rain may step several times in a frame, and all other effects once. So a scene with others is refused before its rain
- * has stepped. Logged once for a frame. */
+/* Each effect steps once in a frame. A second call is refused as a whole. Logged once for a frame. */
 static virga_result check_once(virga_scene *scene)
 {
     const uint64_t frame = scene->context->frame_index;
-    if (!frame || scene->recorded_frame != frame || scene->effect_count < 2)
+    if (!frame || scene->recorded_frame != frame)
         return VIRGA_OK;
     if (scene->twice_frame != frame)
         virga_wrong_argument(&scene->context->log,

@@ -195,7 +195,7 @@ VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
  * VIRGA_NOT_READY, and nothing is recorded or stepped, until virga_scene_ready returns VIRGA_OK. Also for a view of no
  * pixels; then all else is done. Otherwise it returns the first error of the effects, else their last remark.
  * VIRGA_ERROR_INVALID for a scene with panes where `frame` has none, and for numbers out of range: then nothing is
- * recorded. Also for a second call in a frame, unless the scene has rain alone. */
+ * recorded. Also for a second call in a frame. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Prepares the panes of a frame with `defer_panes`, at their own time. Outside rendering, once view->color holds the
