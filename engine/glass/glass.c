@@ -246,8 +246,7 @@ static const virga_effect_image images[] = {
     {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR, CLEARED_USE, COUNT_MIST_COLUMNS,
      COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"glass.textures", AT(picture.textures), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR,
-     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, .keeps = true,
-     .per_view = true},
+     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, .per_view = true},
     BLANK_DEPTH("glass.blank_depth", picture.blank_depth),
     BLANK_COLOR("glass.blank_color", picture.blank_color),
 };

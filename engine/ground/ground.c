@@ -101,7 +101,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
     counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
     counts[COUNT_TICKS] =
-        def->max_ticks_per_step + 3; /* one more where the window moves, and two for simulated water */
+        def->max_ticks_per_step + 4; /* where the window moves, for the far map, and two for simulated water */
 }
 
 #define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */

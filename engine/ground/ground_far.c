@@ -65,15 +65,26 @@ void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const vi
     ground->base.journal.doing |= GROUND_DID_FAR_HEIGHTS;
 }
 
-void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd)
+bool ground_far_is_due(const virga_ground *ground)
 {
+    return !ground->far.drawn || ground->ticks - ground->far.drawn_at >= MAP_TICKS;
+}
+
+void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd, bool due)
+{
+    static const virga_image_state anything = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0};
+    static const virga_image_state written = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                              VK_ACCESS_SHADER_WRITE_BIT};
+    virga_context *context = ground->base.context;
     ground_far *far = &ground->far;
     const uint32_t cells = ground->def.far_cells;
-    if (far->drawn && ground->ticks - far->drawn_at < MAP_TICKS)
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.far");
+    if (far->is_unsure)
+        virga_image_barrier(context, cmd, far->map->image, VK_IMAGE_ASPECT_COLOR_BIT, anything, written);
+    virga_dispatch(context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
+    virga_pass_end(context, cmd, scope);
+    if (!due)
         return;
-    const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.far");
-    virga_dispatch(ground->base.context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
-    virga_pass_end(ground->base.context, cmd, scope);
     far->drawn = true;
     ground->base.journal.doing |= GROUND_DID_FAR_MAP;
     far->drawn_at = ground->ticks;

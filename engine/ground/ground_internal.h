@@ -137,15 +137,20 @@ typedef struct ground_far {
     virga_pipeline *floor_pass, *draw;
     int32_t low[2]; /* in far cells */
     bool is_placed, drawn;
-    uint64_t drawn_at; /* in ticks */
+    uint64_t drawn_at;                    /* in ticks */
+    virga_ground_tick_gpu tick, drawn_by; /* the newest tick, and the one by which the map was drawn */
+    bool can_repeat;                      /* `drawn_by` is known */
+    bool is_unsure;                       /* the device may not have executed the map's first transition */
 } ground_far;
 
 /* Moves the distant map with the camera. Returns true if its height map must be drawn again. */
 bool ground_far_follow(virga_ground *ground, const double camera_m[3]);
 void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
 
-/* Updates the distant map if an update is due. */
-void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd);
+/* Whether an update of the distant map is due. */
+bool ground_far_is_due(const virga_ground *ground);
+/* Draws the map by the tick that is bound. `due`: it is an update, else the same again. */
+void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd, bool due);
 void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
 void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps);
 

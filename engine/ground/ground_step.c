@@ -80,6 +80,7 @@ void ground_state_loaded(void *object)
 {
     virga_ground *ground = object;
     ground->move_frame = 0;
+    ground->far.can_repeat = false; /* the map was drawn by a tick that the state does not have */
     ground->stats.tiles_cached = ground->window.cached_count;
 }
 
@@ -193,6 +194,7 @@ static void push_tick(virga_ground *ground, uint32_t tick)
 {
     virga_ground_tick_gpu block;
     fill_tick(ground, tick, &block);
+    ground->far.tick = block;
     ground->tick_offset = virga_ring_push(ground->base.context, &ground->tick_ring, &block, sizeof block);
 }
 
@@ -502,11 +504,30 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
+/* The distant map is drawn anew in some ticks only. As long as the frame with its first transition may be lost, it is
+ * drawn again as it was, else later frames would read an image in no layout. */
+static void write_far_map(virga_ground *ground, VkCommandBuffer cmd)
+{
+    ground_far *far = &ground->far;
+    const bool due = ground_far_is_due(ground);
+    if (!due && !(far->is_unsure && far->can_repeat))
+        return;
+    if (due) {
+        far->drawn_by = far->tick;
+        far->can_repeat = true;
+    } else {
+        ground->tick_offset =
+            virga_ring_push(ground->base.context, &ground->tick_ring, &far->drawn_by, sizeof far->drawn_by);
+        bind(ground, cmd);
+    }
+    ground_far_draw(ground, cmd, due);
+}
+
 static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.map");
     dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
-    ground_far_draw(ground, cmd);
+    write_far_map(ground, cmd);
     virga_wait(ground->base.context, cmd, VIRGA_PASSES,
                VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_VERTICES | VIRGA_FRAGMENTS);
     virga_pass_end(ground->base.context, cmd, scope);
@@ -527,6 +548,7 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
                                                 .range = sizeof(virga_impacts_gpu)};
     const bool first = virga_effect_first_contents(&ground->base, cmd);
     ground->base.first_head = (virga_bound){0}; /* the host owns it */
+    ground->far.is_unsure = first;
     if (!first)
         return;
     virga_mesh_map_first_layouts(context, cmd, ground->height_map);
