@@ -617,13 +617,13 @@ VIRGA_API virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer c
 VIRGA_API virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
                                                 const virga_glass_pose *pose, double time_s, virga_prepared *prepared);
 
-/* Builds the pipelines for a target; at most 8 targets. Do not call it in a frame that must be on time. */
+/* Builds the pipelines for a target, any number of targets. Do not call it in a frame that must be on time. */
 VIRGA_API virga_result virga_glass_attach(virga_glass *glass, const virga_target *target);
 
 /* Draws the drops of the newest prepare of this frame: premultiplied, blended with ONE and ONE_MINUS_SRC_ALPHA. Over
  * the plate that gives the picture through the pane. Over nothing it gives a layer with alpha, without the background.
- * Inside rendering of `target`. Sets pipeline, descriptors, viewport and scissor. Returns VIRGA_NOT_READY, and draws
- * nothing, if the target was not attached or nothing was prepared in this frame. */
+ * Inside rendering of `target`; virga/vulkan.h says what it changes in the command buffer. Returns VIRGA_NOT_READY, and
+ * draws nothing, if the target was not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
 
 /* The same for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was not,

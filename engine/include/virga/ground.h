@@ -217,7 +217,8 @@ typedef struct virga_ground_step_info {
     /* (optional) It is read where the window moves, see virga_ground_refresh_heights. */
     virga_ground_material_map materials;
 
-    /* As virga_rain_impacts returns them: a virga_impacts_gpu and the impacts after it. */
+    /* As virga_rain_impacts returns them: a virga_impacts_gpu and the impacts after it, in a buffer with the usages
+     * STORAGE and INDIRECT. */
     VkBuffer impacts;
 
     /* A multiple of the device's minStorageBufferOffsetAlignment and of 4. */

@@ -253,13 +253,13 @@ typedef struct virga_rain_step_info {
     /* Position from which the field is looked at. May jump. */
     double camera_m[3];
 
-    /* [0; 64] ticks that the frame may run at most, e.g. as a frame is late already. Its steps together; values above
-     * def.max_ticks_per_step count as that. 0: max_ticks_per_step. Default 0. */
+    /* [0; 64] ticks that the step may run at most, e.g. as a frame is late already. Values above def.max_ticks_per_step
+     * count as that. 0: max_ticks_per_step. Default 0. */
     uint32_t max_ticks;
 } virga_rain_step_info;
 
-/* Runs the ticks that dt_s completes, and writes their impacts. Outside rendering. The first step also initialises the
- * state.
+/* Runs the ticks that dt_s completes, and writes their impacts. Outside rendering, at most once per frame. The first
+ * step also initialises the state.
  *
  * Leaves the impact buffer ready to be read in the same command buffer: by compute and vertex shaders, as indirect
  * arguments (group_count), and by transfers.
@@ -301,14 +301,13 @@ VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd,
 VIRGA_API virga_result virga_rain_prepare_view(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
                                                double time_s, virga_prepared *prepared);
 
-/* Builds the pipelines for a target; at most 8 targets per rain. On software Vulkan a pipeline that is not cached takes
- * 20 to 75 ms, so do not call it in a frame that must be on time. */
+/* Builds the pipelines for a target, any number of targets. On software Vulkan a pipeline that is not cached takes 20
+ * to 75 ms, so do not call it in a frame that must be on time. */
 VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *target);
 
 /* Draws haze and streaks of the newest prepare of this frame: premultiplied, blended with ONE and ONE_MINUS_SRC_ALPHA.
- * Inside rendering of `target`. Sets pipeline, descriptors, viewport and scissor; the host must set its own again after
- * it. Returns VIRGA_NOT_READY, and draws nothing, if the target was not attached or nothing was prepared in this
- * frame. */
+ * Inside rendering of `target`; virga/vulkan.h says what it changes in the command buffer. Returns VIRGA_NOT_READY, and
+ * draws nothing, if the target was not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
 /* Bits of what virga_rain_draw draws, in its order. */

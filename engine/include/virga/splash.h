@@ -240,8 +240,8 @@ typedef struct virga_splash_step_info {
     /* Positions are kept relative to an anchor near it. */
     double camera_m[3];
 
-    /* virga_spawns_gpu and the spawns after it. Ready to be read by compute shaders and as indirect arguments, as
-     * virga_ground_step leaves them. */
+    /* virga_spawns_gpu and the spawns after it, in a buffer with the usages STORAGE and INDIRECT. Ready to be read by
+     * compute shaders and as indirect arguments, as virga_ground_step leaves them. */
     VkBuffer spawns;
 
     /* A multiple of the device's minStorageBufferOffsetAlignment and of 4. */
@@ -307,12 +307,12 @@ VIRGA_API virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffe
 VIRGA_API virga_result virga_splash_prepare_view(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view,
                                                  double time_s, virga_prepared *prepared);
 
-/* Builds the pipelines for a target; at most 8 targets. Do not call it in a frame that must be on time. */
+/* Builds the pipelines for a target, any number of targets. Do not call it in a frame that must be on time. */
 VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_target *target);
 
 /* Draws what the newest prepare of this frame selected: premultiplied, blended with ONE and ONE_MINUS_SRC_ALPHA. Inside
- * rendering of `target`. Sets pipeline, descriptors, viewport and scissor. Returns VIRGA_NOT_READY, and draws nothing,
- * if the target was not attached or nothing was prepared in this frame. */
+ * rendering of `target`; virga/vulkan.h says what it changes in the command buffer. Returns VIRGA_NOT_READY, and draws
+ * nothing, if the target was not attached or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target);
 
 /* The same for any view that was prepared in this frame, see virga_prepared. VIRGA_ERROR_INVALID for one that was not,

@@ -24,11 +24,33 @@
  * orders its own work by barriers alone. What a host writes (vertex buffers, images of a view) the host must make
  * visible before it calls Virga. What it gives to a frame must live until that frame has completed.
  *
- * What calls change in a command buffer. Outside rendering: the compute pipeline, its descriptor set 0, and push
- * constants. Those that draw into images of their own (occlusion maps, the ground's maps, water) change what draws
- * change, and vertex buffer 0. Draws: the graphics pipeline, its descriptor set 0, push constants, the index buffer,
- * viewport 0 and scissor 0, and the line width where the context has wide_lines. Nothing else, e.g. no stencil
- * reference, depth bias or blend constants. Nothing is put back: the host sets what it needs again.
+ * What calls change in a command buffer. Nothing is put back: the host sets what it needs again. "compute" is the
+ * compute pipeline and its descriptor set 0; "graphics" the graphics pipeline, its descriptor set 0, viewport 0 and
+ * scissor 0. The line width changes where the context has wide_lines.
+ *
+ *     virga_rain_draw                 graphics, index buffer, line width
+ *     virga_rain_draw_haze            graphics
+ *     virga_splash_draw               graphics, index buffer, line width
+ *     virga_glass_draw                graphics, index buffer
+ *     virga_glass_draw_refraction     graphics, index buffer
+ *     virga_water_draw                graphics
+ *     virga_water_draw_data           graphics
+ *     virga_water_draw_foam           graphics
+ *     virga_ground_draw_wet           graphics
+ *     virga_lens_draw                 graphics, push constants
+ *     virga_lens_draw_part            graphics, push constants
+ *     virga_scene_draw                graphics, index buffer, line width
+ *
+ *     virga_rain_draw_occlusion       compute, graphics, push constants, index buffer, vertex buffer 0
+ *     virga_ground_step               compute, graphics, push constants, index buffer, vertex buffer 0
+ *     virga_water_prepare             compute, graphics, push constants
+ *     virga_scene_record              compute, graphics, push constants, index buffer, vertex buffer 0
+ *     others outside rendering        compute, push constants
+ *
+ * Those whose names go on (`_parts`, `_view`) change the same. By Vulkan's rules the host's dynamic state that is
+ * static in Virga's pipelines (depth bias, blend constants, stencil reference, ...) is no longer set after a draw, nor
+ * are descriptor sets of other numbers, as layouts differ. So set these again, too. Virga also records timestamps
+ * (`timings`) and debug labels.
  *
  * Handles. Objects are made from a context and belong to it. An object of another context is refused. NULL is accepted
  * by destroy functions, and refused by all others that return a result. A destroy function sets the handle that it is
@@ -171,8 +193,12 @@ typedef struct virga_context_def {
      * do not fit, it returns VIRGA_ERROR_DEVICE_MEMORY. Default 0: no limit. */
     VkDeviceSize memory_budget;
 
-    virga_log_fn log; /* (optional) */
-    void *log_user;   /* passed to `log` */
+    /* (optional) Set it at least while you develop: a result says that something failed, a line says why. Lines of
+     * VIRGA_LOG_INFO say on which device it rains and how large objects became. */
+    virga_log_fn log;
+
+    /* Passed to `log`. */
+    void *log_user;
 
     /* Passes on every log line, also one that comes again in later frames, see virga_log_fn. For tests. Default
      * false. */

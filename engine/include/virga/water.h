@@ -346,7 +346,7 @@ typedef struct virga_water_step_info {
  * 170 ms for 208,125 (tests/water/water_look.c prints each pass). */
 VIRGA_API virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info);
 
-/* Builds the pipelines for a target, once per target, up to eight targets. Does nothing without max_width. Errors as
+/* Builds the pipelines for a target, any number of targets. Does nothing without max_width. Errors as
  * virga_context_create. */
 VIRGA_API virga_result virga_water_attach(virga_water *water, const virga_target *target);
 
