@@ -169,8 +169,9 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
         free_context(made);
         return result;
     }
-    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s, %u frames in flight",
-                    made->properties.deviceName, made->frames_in_flight);
+    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s%s, %u frames in flight",
+                    made->properties.deviceName, made->software ? ", software Vulkan without a GPU" : "",
+                    made->frames_in_flight);
     *context = made;
     return VIRGA_OK;
 }

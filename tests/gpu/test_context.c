@@ -16,6 +16,28 @@ static void context_is_made_and_says_so(void **state)
     assert_int_equal(watch_sum(watch.live), 0);
 }
 
+static VkPhysicalDeviceType lie_type_name;
+
+static void lie_type(VkPhysicalDeviceProperties *properties)
+{
+    properties->deviceType = lie_type_name;
+}
+
+/* Who forgets to choose a GPU wonders why it is slow. */
+static void context_without_a_gpu_says_so(void **state)
+{
+    gpu_fixture *f = *state;
+    const VkPhysicalDeviceType types[2] = {VK_PHYSICAL_DEVICE_TYPE_CPU, VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU};
+    watch.lie_properties = lie_type;
+    for (int i = 0; i < 2; i++) {
+        lie_type_name = types[i];
+        gpu_forget_log(f);
+        virga_context *context = gpu_context(f);
+        assert_int_equal(strstr(f->last, "software Vulkan without a GPU") != NULL, i == 0);
+        virga_context_destroy(&context);
+    }
+}
+
 static void destroy_accepts_null(void **state)
 {
     (void)state;
@@ -139,9 +161,13 @@ static void lost_device_is_sticky_and_said_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(context_is_made_and_says_so),         gpu_test(destroy_accepts_null),
-        gpu_test(destroy_sets_handles_to_null),        gpu_test(two_contexts_live_side_by_side),
-        gpu_test(wrong_context_arguments_are_refused), gpu_test(lost_device_is_sticky_and_said_once),
+        gpu_test(context_is_made_and_says_so),
+        gpu_test(context_without_a_gpu_says_so),
+        gpu_test(destroy_accepts_null),
+        gpu_test(destroy_sets_handles_to_null),
+        gpu_test(two_contexts_live_side_by_side),
+        gpu_test(wrong_context_arguments_are_refused),
+        gpu_test(lost_device_is_sticky_and_said_once),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
