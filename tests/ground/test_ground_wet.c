@@ -13,19 +13,31 @@ enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT };
 #define EYE_M      1.5
 #define WALL_M     4.0 /* in front of the camera, 3 m high; above it is the sky */
 #define WALL_TOP_M 3.0
+#define NEAR_M     0.1
+#define FAR_M      100.0
 #define FORMAT     VK_FORMAT_R32G32B32A32_SFLOAT
+
+/* How the host has it. */
+typedef enum room_kind {
+    PLAIN,
+    REVERSED, /* greater depth is nearer, and there is no far plane */
+    ENCODED,  /* its picture and the target hold sRGB values in bytes */
+} room_kind;
 
 typedef struct room {
     ground_fixture f;
+    room_kind kind;
     layered_pass pass;
     virga_target *target;
     host_image depth, color;
     virga_view view;
     virga_ground_wet wet;
     float colors[PIXELS][4], depths[PIXELS];
+    uint8_t bytes[PIXELS][4]; /* the colors, encoded */
 } room;
 
-static const double floor_color[3] = {0.4, 0.35, 0.3};
+/* Grey, so that a target can be cleared to it. */
+static const double floor_color[3] = {0.35, 0.35, 0.35};
 
 static void wall_color(double x, double y, double color[3])
 {
@@ -42,9 +54,23 @@ static void ray_of(double x, double y, double ray[3])
     ray[2] = -1;
 }
 
+/* IEC 61966-2-1. */
+static double encoded(double light)
+{
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+}
+
+/* The value of a depth buffer at a view depth; 0: the sky. */
+static float depth_of(room_kind kind, double z)
+{
+    const double near = NEAR_M, far = FAR_M;
+    if (kind == REVERSED)
+        return z > 0 ? (float)(near / z) : 0;
+    return z > 0 ? (float)(far / (far - near) * (1 - near / z)) : 1;
+}
+
 static void paint(room *r)
 {
-    const double near = 0.1, far = 100;
     for (int i = 0; i < PIXELS; i++) {
         double ray[3], color[3] = {0.2, 0.4, 0.9}, z = 0; /* the sky */
         ray_of(i % WIDTH + 0.5, i / WIDTH + 0.5, ray);
@@ -56,10 +82,13 @@ static void paint(room *r)
             wall_color(ray[0] * WALL_M, wall_y, color);
             z = WALL_M;
         }
-        for (int c = 0; c < 3; c++)
+        for (int c = 0; c < 3; c++) {
             r->colors[i][c] = (float)color[c];
+            r->bytes[i][c] = (uint8_t)lround(255 * encoded(color[c]));
+        }
         r->colors[i][3] = 1;
-        r->depths[i] = z > 0 ? (float)(far / (far - near) * (1 - near / z)) : 1;
+        r->bytes[i][3] = 255;
+        r->depths[i] = depth_of(r->kind, z);
     }
 }
 
@@ -78,10 +107,14 @@ static virga_image give(room *r, host_image *made, VkFormat format, const void *
 
 static void aim(room *r)
 {
-    const float near = 0.1f, far = 100, ratio = (float)HEIGHT / WIDTH;
-    const float clip[16] = {
-        ratio, 0, 0, 0, 0, -1, 0, 0, 0, 0, -far / (far - near), -1, 0, 0, -far * near / (far - near)};
+    const float near = (float)NEAR_M, far = (float)FAR_M, ratio = (float)HEIGHT / WIDTH;
+    float clip[16] = {ratio, 0, 0, 0, 0, -1, 0, 0, 0, 0, -far / (far - near), -1, 0, 0, -far * near / (far - near)};
+    if (r->kind == REVERSED) {
+        clip[10] = 0;
+        clip[14] = near;
+    }
     r->view = virga_default_view();
+    r->view.reversed_depth = r->kind == REVERSED;
     r->view.position_m[1] = r->view.open_position_m[1] = EYE_M;
     memcpy(r->view.clip_from_view, clip, sizeof clip);
     memcpy(r->view.open_clip_from_view, clip, sizeof clip);
@@ -90,10 +123,11 @@ static void aim(room *r)
 }
 
 /* A smooth floor under 3 mm of water: all of it is one level puddle. */
-static void open_room(room *r, float start_water_mm)
+static void open_room(room *r, float start_water_mm, room_kind kind)
 {
     virga_target_def target = virga_default_target_def();
     memset(r, 0, sizeof *r);
+    r->kind = kind;
     ground_fixture_open(&r->f);
     virga_ground_def def = virga_default_ground_def();
     def.cells = 256; /* 12.8 m */
@@ -106,15 +140,20 @@ static void open_room(room *r, float start_water_mm)
     REQUIRE(virga_ground_set(r->f.ground, &r->f.settings) == VIRGA_OK);
     r->f.camera[1] = EYE_M;
     ground_fixture_step(&r->f, 1);
-    layered_pass_open(&r->pass, &r->f.gpu, FORMAT, 16, WIDTH, HEIGHT, 1, 0);
+    const VkFormat screen = VK_FORMAT_R8G8B8A8_UNORM;
+    layered_pass_open(&r->pass, &r->f.gpu, kind == ENCODED ? screen : FORMAT, kind == ENCODED ? 4 : 16, WIDTH, HEIGHT,
+                      1, 0);
     target.render_pass = r->pass.pass;
     target.depth_attached = false;
+    target.encoding = kind == ENCODED ? VIRGA_ENCODING_SRGB : VIRGA_ENCODING_NOT_GIVEN;
     REQUIRE(virga_target_create(r->f.context, &target, &r->target) == VIRGA_OK);
     REQUIRE(virga_ground_attach(r->f.ground, r->target) == VIRGA_OK);
     paint(r);
     aim(r);
     r->view.depth = give(r, &r->depth, VK_FORMAT_R32_SFLOAT, r->depths, sizeof r->depths[0]);
-    r->view.color = give(r, &r->color, FORMAT, r->colors, sizeof r->colors[0]);
+    r->view.color = kind == ENCODED ? give(r, &r->color, screen, r->bytes, sizeof r->bytes[0])
+                                    : give(r, &r->color, FORMAT, r->colors, sizeof r->colors[0]);
+    r->view.color_encoding = target.encoding;
     r->wet = virga_default_ground_wet();
 }
 
@@ -127,14 +166,19 @@ static void close_room(room *r)
     ground_fixture_close(&r->f);
 }
 
-static const float *draw(room *r)
+static const void *draw_over(room *r, float background)
 {
     const VkCommandBuffer cmd = effect_fixture_begin(&r->f.gpu, r->f.context);
-    layered_pass_begin(&r->pass, cmd, 0);
+    layered_pass_begin(&r->pass, cmd, background);
     assert_int_equal(virga_ground_draw_wet(r->f.ground, cmd, &r->view, &r->wet, r->target), VIRGA_OK);
     layered_pass_end(&r->pass, cmd);
     effect_fixture_complete(&r->f.gpu, r->f.context);
     return layered_pass_pixels(&r->pass);
+}
+
+static const float *draw(room *r)
+{
+    return draw_over(r, 0);
 }
 
 /* What a level puddle shows at a pixel of the floor: premultiplied light and coverage. False: the wall's image there is
@@ -161,11 +205,10 @@ static bool puddle_at(const room *r, double x, double y, double expected[4])
 }
 
 /* Within 0.005 of light that is up to 1: rays are followed by halvings, and the picture is filtered between pixels. */
-static void a_puddle_mirrors_the_wall_and_darkens(void **state)
+static void check_puddle(room_kind kind)
 {
     static room r;
-    (void)state;
-    open_room(&r, 3);
+    open_room(&r, 3, kind);
     for (int strength = 1; strength <= 2; strength++) {
         r.wet.strength = (float)strength;
         const float *pixels = draw(&r);
@@ -185,17 +228,55 @@ static void a_puddle_mirrors_the_wall_and_darkens(void **state)
     close_room(&r);
 }
 
+static void a_puddle_mirrors_the_wall_and_darkens(void **state)
+{
+    (void)state;
+    check_puddle(PLAIN);
+}
+
+static void and_in_reversed_depth(void **state)
+{
+    (void)state;
+    check_puddle(REVERSED);
+}
+
+/* Over the host's picture, which the pass knows, blending is exact: the bytes are those of the light above, encoded.
+ * Within 1.5/255, of which rounding is a half. */
+static void and_where_picture_and_target_are_encoded(void **state)
+{
+    static room r;
+    (void)state;
+    open_room(&r, 3, ENCODED);
+    for (int strength = 1; strength <= 2; strength++) {
+        r.wet.strength = (float)strength;
+        const uint8_t *pixels = draw_over(&r, (float)encoded(floor_color[0]));
+        double most = 0;
+        uint32_t compared = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            double light[4];
+            if (!puddle_at(&r, i % WIDTH + 0.5, i / WIDTH + 0.5, light))
+                continue;
+            compared++;
+            for (int c = 0; c < 3; c++)
+                most = fmax(most, fabs(pixels[4 * i + c] - 255 * encoded(light[c] + (1 - light[3]) * floor_color[c])));
+        }
+        printf("strength %d: %u pixels, off by %.2f/255 at most\n", strength, compared, most);
+        assert_true(compared > 500 && most < 1.5);
+    }
+    close_room(&r);
+}
+
 /* Without water, and above it, nothing is drawn. */
 static void dry_ground_and_walls_stay_as_they_are(void **state)
 {
     static room r;
     (void)state;
-    open_room(&r, 0);
+    open_room(&r, 0, PLAIN);
     const float *pixels = draw(&r);
     for (int i = 0; i < 4 * PIXELS; i++)
         assert_true(pixels[i] == 0);
     close_room(&r);
-    open_room(&r, 3);
+    open_room(&r, 3, PLAIN);
     pixels = draw(&r);
     for (int i = 0; i < PIXELS; i++) {
         double ray[3];
@@ -222,7 +303,7 @@ static void what_is_missing_or_out_of_range_is_told(void **state)
 {
     static room r;
     (void)state;
-    open_room(&r, 3);
+    open_room(&r, 3, PLAIN);
     const VkCommandBuffer cmd = effect_fixture_begin(&r.f.gpu, r.f.context);
     const virga_ground_wet wet = r.wet;
     const virga_view view = r.view;
@@ -252,6 +333,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_puddle_mirrors_the_wall_and_darkens),
+        cmocka_unit_test(and_in_reversed_depth),
+        cmocka_unit_test(and_where_picture_and_target_are_encoded),
         cmocka_unit_test(dry_ground_and_walls_stay_as_they_are),
         cmocka_unit_test(what_is_missing_or_out_of_range_is_told),
     };

@@ -4,23 +4,35 @@
 #include <math.h>
 #include <string.h>
 
-/* A floor, a roof at 3 m over x, z in [-2; 2], and a table at 1 m under it and beyond it, x in [0; 4]. */
-static void open_roof(rain_fixture *f, float wind_x)
+/* A floor, a roof at 3 m over x, z in [-2; 2], and a table at 1 m under it and beyond it, x in [0; 4]. The vertices are
+ * in units of scale[axis] metres, and may be mirrored. */
+static void open_scaled_roof(rain_fixture *f, float wind_x, const float scale[3])
 {
     static const float quads[3][4][3] = {{{-100, 0, -100}, {100, 0, -100}, {100, 0, 100}, {-100, 0, 100}},
                                          {{-2, 3, -2}, {2, 3, -2}, {2, 3, 2}, {-2, 3, 2}},
                                          {{0, 1, -1}, {4, 1, -1}, {4, 1, 1}, {0, 1, 1}}};
+    float own[3][4][3];
     virga_rain_def def = virga_default_rain_def();
     def.max_drops = 32768;
     def.range_m = 8;
     def.occlusion_slants = 4;
     rain_fixture_open(f);
-    rain_fixture_quads(f, quads, 3);
+    for (int i = 0; i < 3 * 4 * 3; i++)
+        own[i / 12][i / 3 % 4][i % 3] = quads[i / 12][i / 3 % 4][i % 3] / scale[i % 3];
+    rain_fixture_quads(f, own, 3);
+    for (int i = 0; i < 3; i++)
+        for (int axis = 0; axis < 3; axis++)
+            f->occluders[i].world_from_mesh[5 * axis] = scale[axis];
     rain_fixture_rain(f, &def);
     f->settings.rate_mm_h = 100;
     f->settings.wind_m_s[0] = wind_x;
     f->camera[1] = 1.7;
     assert_int_equal(virga_rain_set(f->rain, &f->settings), VIRGA_OK);
+}
+
+static void open_roof(rain_fixture *f, float wind_x)
+{
+    open_scaled_roof(f, wind_x, (const float[3]){1, 1, 1});
 }
 
 static void still_rain_lands_on_the_first_surface(void **state)
@@ -211,12 +223,38 @@ static void a_camera_that_jumps_has_all_maps_at_once(void **state)
     rain_fixture_close(&f);
 }
 
+/* Scales by powers of two change no bit of a position. */
+static void meshes_may_be_scaled_and_mirrored(void **state)
+{
+    static const float scales[3][3] = {{1, 1, 1}, {0.25f, 2, 0.5f}, {-0.5f, 0.03125f, 4}};
+    static virga_impact_gpu expected[4096];
+    uint32_t count = 0;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const virga_impact_gpu *list;
+        rain_fixture f;
+        open_scaled_roof(&f, 2, scales[i]);
+        rain_fixture_step(&f, 1.0 / 12);
+        rain_fixture_step(&f, 1.0 / 12);
+        const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
+        assert_true(head->count > 100 && head->count <= sizeof expected / sizeof expected[0]);
+        if (i) {
+            assert_int_equal(head->count, count);
+            assert_memory_equal(list, expected, count * sizeof *list);
+        }
+        count = head->count;
+        memcpy(expected, list, count * sizeof *list);
+        rain_fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_rain_lands_on_the_first_surface),
         cmocka_unit_test(slanted_rain_does_not_come_through_the_roof),
         cmocka_unit_test(no_drop_is_shown_under_the_roof),
+        cmocka_unit_test(meshes_may_be_scaled_and_mirrored),
         cmocka_unit_test(maps_are_there_once_they_are_drawn),
         cmocka_unit_test(with_one_map_per_call_all_are_drawn_in_eight_calls),
         cmocka_unit_test(a_camera_that_jumps_has_all_maps_at_once),
