@@ -472,6 +472,7 @@ static void close_all(drive *d)
     destroy_rain(d);
     unload_world(d);
     free(d->frame_s);
+    free(d->work_s);
     stage_destroy(&d->stage);
     host_device_destroy(&d->device);
     close_window(d);

@@ -52,9 +52,10 @@ typedef struct drive {
     double eye_m[3]; /* of the camera outside, which lags behind */
     stage_camera camera, last_camera;
     bool has_last_camera;
-    uint32_t frame;  /* number of frames that have begun */
-    double last_s;   /* when the newest one began */
-    double *frame_s; /* without a window: how long each took */
+    uint32_t frame;           /* number of frames that have begun */
+    double last_s;            /* when the newest one began */
+    double *frame_s, *work_s; /* without a window: how long each took, and of the processor's time */
+    double last_work_s;
 
     /* Virga's. */
     virga_context *context;
