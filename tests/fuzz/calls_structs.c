@@ -181,7 +181,7 @@ void calls_fill_glass_def(calls *c, virga_glass_def *out)
     out->height_m = 0.15f;
     out->cell_m = 0.005f;
     SMALL(max_drops, 256, 1024);
-    SMALL(max_texels, 4096, 16384);
+    SMALL(max_texels, 64, 256);
     out->height_map = calls_once_in(c, 3);
     if (!c->device->honest) {
         KEEP(CALLS_BOOL(virga_glass_def, height_map));
