@@ -186,12 +186,28 @@ static void fill_exchange(calls *c, uint32_t context, virga_ground_exchange *out
     out->buffer = exchange.buffer;
 }
 
+/* Lists that a step reads are there once a step has written them: what a device finds in one that was never written may
+ * be the number of workgroups, and no library can look at it. */
+static bool has_impacts(const calls *c, virga_rain *rain)
+{
+    virga_rain_stats stats = {0};
+    virga_rain_stats_get(rain, &stats);
+    return !c->device->honest || stats.time_s > 0;
+}
+
+static bool has_spawns(const calls *c, virga_ground *ground)
+{
+    virga_ground_stats stats = {0};
+    virga_ground_stats_get(ground, &stats);
+    return !c->device->honest || stats.frame_index;
+}
+
 /* The impacts of the rain that the step stands beside; where handles are not checked, anything. */
 static void fill_events(calls *c, uint32_t context, virga_ground_step_info *info)
 {
     const calls_handle rain = calls_pick(c, CALLS_RAIN);
     virga_rain_buffer impacts = {0};
-    if (rain.object && rain.context == context)
+    if (rain.object && rain.context == context && has_impacts(c, rain.object))
         virga_rain_impacts(rain.object, &impacts);
     info->impacts = impacts.buffer;
     info->impacts_offset = impacts.offset;
@@ -274,7 +290,7 @@ void call_virga_splash_step(calls *c)
     const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_camera(c, info.camera_m);
-    if (ground.context == h.context && ground.object)
+    if (ground.context == h.context && ground.object && has_spawns(c, ground.object))
         virga_ground_spawns(ground.object, &info.spawns, &info.spawns_size);
     virga_rain_ticks(rain.object, &info.first_tick, &info.ticks);
     if (!rain.object)
