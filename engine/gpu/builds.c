@@ -5,8 +5,8 @@
  *
  *     WAITING -> RUNNING -> DONE -> collected          WAITING -> DROPPED -> DONE -> collected
  *
- * The second sequence is for a pipeline whose users were retired before its build began. The host's job keeps a pointer to its
- * build. So a dropped build is freed only after its job ran (and did nothing), or with the context. */
+ * The second sequence is for a pipeline whose users were retired before its build began. The host's job keeps a pointer
+ * to its build. So a dropped build is freed only after its job ran (and did nothing), or with the context. */
 #include "gpu/builds.h"
 
 #include "gpu/context.h"

@@ -19,8 +19,8 @@ virga_result virga_builds_collect(virga_context *context);
 /* The pipeline ends before it was built. */
 void virga_build_abandon(virga_context *context, virga_built *built);
 
-/* Cancels the builds that only retired pipelines wait for and that have not started. True while one still runs: then the layout that it
- * reads must not be destroyed. */
+/* Cancels the builds that only retired pipelines wait for and that have not started. True while one still runs: then
+ * the layout that it reads must not be destroyed. */
 bool virga_builds_cancel_retired(virga_context *context);
 
 /* Frees all builds, with the context. No job may run any more. */
