@@ -7,50 +7,13 @@
 #include "gpu/record.h"
 #include "gpu/state_bytes.h"
 #include "gpu/state_check.h"
+#include "gpu/state_parts.h"
 
 #include <string.h>
-
-static VkDeviceSize aligned(VkDeviceSize size)
-{
-    return (size + VIRGA_STATE_ALIGNMENT - 1) / VIRGA_STATE_ALIGNMENT * VIRGA_STATE_ALIGNMENT;
-}
-
-/* ---- what belongs to a state */
-
-/* Buffers that passes write anew before they read them have no state. */
-static bool is_state_buffer(const virga_effect_buffer *row)
-{
-    return !row->scratch && !row->per_view && (row->keeps || row->first == VIRGA_FIRST_FILL);
-}
-
-static virga_buffer *buffer_of(const virga_effect *effect, const virga_effect_buffer *row)
-{
-    return is_state_buffer(row) ? *(virga_buffer **)virga_effect_member(effect, row->member) : NULL;
-}
-
-static virga_image_2d *image_of(const virga_effect *effect, const virga_effect_image *row)
-{
-    return row->keeps && !row->per_view ? *(virga_image_2d **)virga_effect_member(effect, row->member) : NULL;
-}
 
 static VkDeviceSize image_bytes(const virga_image_2d *image)
 {
     return (VkDeviceSize)image->extent.width * image->extent.height * image->layers * virga_texel_bytes(image->format);
-}
-
-static void *host_part(const virga_effect *effect, const virga_effect_state_row *row)
-{
-    void *member = virga_effect_member(effect, row->member);
-    return row->pointed ? *(void **)member : member;
-}
-
-static VkDeviceSize host_bytes(const virga_effect *effect, const virga_effect_state_row *row)
-{
-    VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS];
-    if (!row->count)
-        return row->bytes;
-    virga_effect_counts(effect, counts);
-    return row->bytes * counts[row->count];
 }
 
 static double value_of(const virga_setting_row *row, const void *settings)
@@ -61,55 +24,6 @@ static double value_of(const virga_setting_row *row, const void *settings)
     case VIRGA_NUMBER_DOUBLE: return *(const double *)value;
     case VIRGA_NUMBER_BOOL: return *(const bool *)value;
     default: return *(const uint32_t *)value;
-    }
-}
-
-/* ---- its contents, see state_check.h */
-
-const void *virga_state_saved_row(const virga_state_check *check, const void *part)
-{
-    const char *saved = check->host;
-    for (uint32_t i = 0; i < check->effect->type->state_row_count; i++) {
-        const virga_effect_state_row *row = &check->effect->type->state_rows[i];
-        if (host_part(check->effect, row) == part)
-            return saved;
-        saved += aligned(host_bytes(check->effect, row));
-    }
-    return NULL;
-}
-
-const void *virga_state_saved_buffer(const virga_state_check *check, const virga_buffer *buffer)
-{
-    const char *saved = check->device;
-    for (uint32_t i = 0; i < check->effect->type->buffer_count; i++) {
-        const virga_buffer *here = buffer_of(check->effect, &check->effect->type->buffers[i]);
-        if (here && here == buffer)
-            return saved;
-        saved += here ? aligned(here->size) : 0;
-    }
-    return NULL;
-}
-
-void virga_state_refuse(virga_state_check *check, const char *name, double value, double min, double max)
-{
-    if (!check->failed)
-        virga_wrong_argument(&check->effect->context->log, "%s: %s: the state has %.15g, expected %.15g to %.15g",
-                             check->call, name, value, min, max);
-    check->failed = true;
-}
-
-void virga_state_check_rows(virga_state_check *check)
-{
-    const char *saved = check->host;
-    for (uint32_t i = 0; i < check->effect->type->state_row_count; i++) {
-        const virga_effect_state_row *row = &check->effect->type->state_rows[i];
-        const VkDeviceSize bytes = host_bytes(check->effect, row);
-        for (VkDeviceSize at = 0; row->kind == VIRGA_STATE_BOOLS && at < bytes; at++)
-            virga_state_expect(check, row->name, ((const unsigned char *)saved)[at], 0, 1);
-        for (VkDeviceSize at = 0; row->kind == VIRGA_STATE_DOUBLES && at < bytes; at += sizeof(double))
-            virga_state_expect(check, row->name, *(const double *)(saved + at), -VIRGA_STATE_MAX_NUMBER,
-                               VIRGA_STATE_MAX_NUMBER);
-        saved += aligned(bytes);
     }
 }
 
@@ -156,7 +70,7 @@ static void put(writer *out, const void *bytes, VkDeviceSize size)
 static void align(writer *out)
 {
     static const char zero[VIRGA_STATE_ALIGNMENT];
-    put(out, zero, aligned(out->at) - out->at);
+    put(out, zero, virga_state_aligned(out->at) - out->at);
 }
 
 static void put_values(writer *out, const virga_effect_struct *kind, const virga_effect *effect)
@@ -172,7 +86,8 @@ static void put_values(writer *out, const virga_effect_struct *kind, const virga
 static void put_host(writer *out, const virga_effect *effect)
 {
     for (uint32_t i = 0; i < effect->type->state_row_count; i++) {
-        put(out, host_part(effect, &effect->type->state_rows[i]), host_bytes(effect, &effect->type->state_rows[i]));
+        put(out, virga_state_host_part(effect, &effect->type->state_rows[i]),
+            virga_state_host_bytes(effect, &effect->type->state_rows[i]));
         align(out);
     }
 }
@@ -182,17 +97,17 @@ static void put_device(writer *out, const virga_effect *effect)
 {
     flush(out);
     for (uint32_t i = 0; i < effect->type->buffer_count; i++) {
-        const virga_buffer *buffer = buffer_of(effect, &effect->type->buffers[i]);
+        const virga_buffer *buffer = virga_state_buffer(effect, &effect->type->buffers[i]);
         if (!buffer)
             continue;
         const VkBufferCopy copy = {0, out->offset + out->at, buffer->size};
         if (out->cmd)
             out->context->vk.CmdCopyBuffer(out->cmd, buffer->buffer, out->buffer, 1, &copy);
-        out->at = aligned(out->at + buffer->size);
+        out->at = virga_state_aligned(out->at + buffer->size);
     }
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
-        const virga_image_2d *image = image_of(effect, row);
+        const virga_image_2d *image = virga_state_image(effect, row);
         if (!image)
             continue;
         const VkBufferImageCopy copy = {out->offset + out->at,
@@ -204,7 +119,7 @@ static void put_device(writer *out, const virga_effect *effect)
         if (out->cmd)
             out->context->vk.CmdCopyImageToBuffer(out->cmd, image->image, VK_IMAGE_LAYOUT_GENERAL, out->buffer, 1,
                                                   &copy);
-        out->at = aligned(out->at + image_bytes(image));
+        out->at = virga_state_aligned(out->at + image_bytes(image));
     }
 }
 
@@ -325,7 +240,7 @@ static const void *take(reader *in, VkDeviceSize size)
     if (size > in->size - in->at)
         return NULL;
     const void *bytes = in->bytes + in->at;
-    in->at = aligned(in->at + size) < in->size ? aligned(in->at + size) : in->size;
+    in->at = virga_state_aligned(in->at + size) < in->size ? virga_state_aligned(in->at + size) : in->size;
     return bytes;
 }
 
@@ -348,10 +263,10 @@ static virga_result check_matches(const virga_log *log, const char *call, const 
 {
     for (uint32_t i = 0; i < effect->type->state_row_count; i++) {
         const virga_effect_state_row *row = &effect->type->state_rows[i];
-        const VkDeviceSize bytes = host_bytes(effect, row);
-        if (row->must_match && memcmp(saved, host_part(effect, row), bytes))
+        const VkDeviceSize bytes = virga_state_host_bytes(effect, row);
+        if (row->must_match && memcmp(saved, virga_state_host_part(effect, row), bytes))
             return virga_wrong_argument(log, "%s: %s: the state was saved with other values", call, row->name);
-        saved += aligned(bytes);
+        saved += virga_state_aligned(bytes);
     }
     return VIRGA_OK;
 }
@@ -405,9 +320,9 @@ static void apply_host(virga_effect *effect, const section_parts *parts)
     const char *saved = parts->host;
     for (uint32_t i = 0; i < effect->type->state_row_count; i++) {
         const virga_effect_state_row *row = &effect->type->state_rows[i];
-        const VkDeviceSize bytes = host_bytes(effect, row);
-        memcpy(host_part(effect, row), saved, bytes);
-        saved += aligned(bytes);
+        const VkDeviceSize bytes = virga_state_host_bytes(effect, row);
+        memcpy(virga_state_host_part(effect, row), saved, bytes);
+        saved += virga_state_aligned(bytes);
     }
     effect->load_frame = effect->context->frame_index;
     virga_effect_forget_views(effect, 0);
@@ -419,22 +334,22 @@ static void copy_to_device(virga_effect *effect, VkCommandBuffer cmd, VkBuffer f
 {
     const virga_context *context = effect->context;
     for (uint32_t i = 0; i < effect->type->buffer_count; i++) {
-        const virga_buffer *buffer = buffer_of(effect, &effect->type->buffers[i]);
+        const virga_buffer *buffer = virga_state_buffer(effect, &effect->type->buffers[i]);
         if (!buffer)
             continue;
         const VkBufferCopy copy = {at, 0, buffer->size};
         context->vk.CmdCopyBuffer(cmd, from, buffer->buffer, 1, &copy);
-        at += aligned(buffer->size);
+        at += virga_state_aligned(buffer->size);
     }
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
-        const virga_image_2d *image = image_of(effect, row);
+        const virga_image_2d *image = virga_state_image(effect, row);
         if (!image)
             continue;
         const VkBufferImageCopy copy = {
             at, 0, 0, {row->aspect, 0, 0, image->layers}, {0, 0, 0}, {image->extent.width, image->extent.height, 1}};
         context->vk.CmdCopyBufferToImage(cmd, from, image->image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
-        at += aligned(image_bytes(image));
+        at += virga_state_aligned(image_bytes(image));
     }
 }
 

@@ -191,15 +191,6 @@ static void mix(const virga_particle_gpu *a, const virga_particle_gpu *b, double
     }
 }
 
-bool water_wait_for_solver(shot *s, const water_solver *solver, char *error, size_t error_size)
-{
-    if (!host_wait(&s->device, error, error_size))
-        return false;
-    host_buffer_invalidate(&s->device, &solver->before);
-    host_buffer_invalidate(&s->device, &solver->now);
-    return true;
-}
-
 static bool mix_all(shot *s, const water_solver *solver, double time_s, virga_particle_gpu *out, char *error,
                     size_t error_size)
 {
