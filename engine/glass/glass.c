@@ -405,6 +405,7 @@ const virga_effect_type glass_type = {
     .draw_layout = LAYOUT_PICTURE,
     VIRGA_CALLBACKS(extra_bytes, init, create, destroy, fill_settings, check_settings, apply_settings, state_loaded),
     .draw_constant = glass_draw_constant,
+    .wanted_draws = glass_wanted_draws,
     .lost = glass_lost,
     VIRGA_TABLE(state_row),
     .check_state = glass_check_state,

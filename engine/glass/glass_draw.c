@@ -521,6 +521,22 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
      2, .no_depth = true},
 };
 
+enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT };
+
+/* As choose_draws chooses. */
+uint32_t glass_wanted_draws(const void *given)
+{
+    const virga_glass_settings *settings = given;
+    uint32_t rows = 0;
+    if (!glass_is_all_textured(settings))
+        rows |= 1u << ROW_REFRACTION | 1u << (settings->style == VIRGA_GLASS_STYLE_PAPER ? ROW_PAPER : ROW_PHYSICAL);
+    if (glass_is_front(settings))
+        return rows | 1u << ROW_FRONT;
+    if (glass_is_textured(settings))
+        rows |= 1u << ROW_TEXTURED | 1u << ROW_TEXTURED_REFRACTION;
+    return rows | 1u << ROW_MIST;
+}
+
 uint32_t glass_draw_constant(const void *glass)
 {
     return ((const virga_glass *)glass)->picture.filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;

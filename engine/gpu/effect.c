@@ -398,6 +398,8 @@ virga_result virga_effect_set(virga_effect *effect, const char *call, const void
         TRY(type->check_settings(effect, settings, &changed));
     if (type->apply_settings)
         TRY(type->apply_settings(effect, settings));
+    if (type->wanted_draws)
+        TRY(virga_effect_want_draws(effect, settings));
     memcpy(virga_effect_member(effect, type->settings.member), settings, type->settings.size);
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 error:

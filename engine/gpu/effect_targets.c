@@ -76,24 +76,57 @@ static virga_graphics_def describe_row(const virga_effect *effect, const virga_e
                                 .name = row->name};
 }
 
-static virga_result create_draws(const virga_effect *effect, const virga_target *target, virga_effect_target *slot)
+static uint32_t constants_of(const virga_effect_draw *row)
+{
+    return row->constants ? row->constant_count : 1;
+}
+
+/* Creates those of a row: `pipeline` is the first. */
+static virga_result create_row(const virga_effect *effect, const virga_effect_draw *row, const virga_target *target,
+                               virga_pipeline **pipeline)
 {
     static const uint32_t no_constant[1] = {0};
-    const virga_effect_type *type = effect->type;
-    const uint32_t common = type->draw_constant ? type->draw_constant(effect) : 0;
+    const uint32_t common = effect->type->draw_constant ? effect->type->draw_constant(effect) : 0;
+    virga_graphics_def def = describe_row(effect, row, target);
     virga_result result = VIRGA_OK;
-    virga_pipeline **pipeline = slot->draws;
-    for (uint32_t i = 0; i < type->draw_count; i++) {
-        const virga_effect_draw *row = &type->draws[i];
-        const uint32_t count = row->constants ? row->constant_count : 1;
-        virga_graphics_def def = describe_row(effect, row, target);
-        for (uint32_t k = 0; k < count; k++, pipeline++) {
-            def.constant = common | (row->constants ? row->constants : no_constant)[k];
-            if (!row->lines || effect->context->lines)
-                TRY(virga_target_pipeline(target, def, pipeline));
-        }
+    for (uint32_t i = 0; i < constants_of(row); i++) {
+        def.constant = common | (row->constants ? row->constants : no_constant)[i];
+        if (!row->lines || effect->context->lines)
+            TRY(virga_target_pipeline(target, def, &pipeline[i]));
     }
 error:
+    return result;
+}
+
+/* Creates the rows of `wanted` that are missing. If one fails, those before it stay. */
+static virga_result create_draws(const virga_effect *effect, const virga_target *target, uint32_t wanted,
+                                 virga_effect_target *slot)
+{
+    virga_result result = VIRGA_OK;
+    virga_pipeline **pipeline = slot->draws;
+    for (uint32_t i = 0; i < effect->type->draw_count; i++) {
+        const virga_effect_draw *row = &effect->type->draws[i];
+        if (wanted & ~slot->rows & 1u << i) {
+            TRY(create_row(effect, row, target, pipeline));
+            slot->rows |= 1u << i;
+        }
+        pipeline += constants_of(row);
+    }
+error:
+    return result;
+}
+
+static uint32_t wanted_by(const virga_effect *effect, const void *settings)
+{
+    return effect->type->wanted_draws ? effect->type->wanted_draws(settings) : UINT32_MAX;
+}
+
+virga_result virga_effect_want_draws(virga_effect *effect, const void *settings)
+{
+    virga_result result = VIRGA_OK;
+    for (virga_effect_target *slot = effect->targets; slot && !result; slot = slot->next)
+        if (slot->from)
+            result = create_draws(effect, slot->from, wanted_by(effect, settings), slot);
     return result;
 }
 
@@ -104,9 +137,15 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
         return virga_wrong_argument(log, "%s: expected a target of the same context", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (!effect->type->draw_count || virga_effect_target_of(effect, target->class_of))
+    if (!effect->type->draw_count)
         return VIRGA_OK;
-    virga_effect_target *made = virga_alloc(&effect->context->heap, sizeof *made);
+    const uint32_t wanted = wanted_by(effect, virga_effect_member(effect, effect->type->settings.member));
+    virga_effect_target *made = virga_effect_target_of(effect, target->class_of);
+    if (made) {
+        made->from = made->from ? made->from : target;
+        return create_draws(effect, made->from, wanted, made);
+    }
+    made = virga_alloc(&effect->context->heap, sizeof *made);
     if (!made)
         return virga_out_of_host_memory(effect->context, call);
     made->class_of = target->class_of;
@@ -114,7 +153,7 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
     made->next = effect->targets;
     effect->targets = made;
     virga_target_class_use(made->class_of);
-    const virga_result result = create_draws(effect, target, made);
+    const virga_result result = create_draws(effect, target, wanted, made);
     if (result < 0)
         free_target(effect, &effect->targets);
     return result < 0 ? result : VIRGA_OK;

@@ -8,6 +8,9 @@
 /* Creates the pipelines of an effect for the class of a target, unless it has them. */
 virga_result virga_effect_attach(virga_effect *effect, const char *call, const virga_target *target);
 
+/* Creates the pipelines that other settings want, for all targets. On failure, those that were created stay. */
+virga_result virga_effect_want_draws(virga_effect *effect, const void *settings);
+
 /* The pipelines for a class; NULL: there are none. */
 virga_effect_target *virga_effect_target_of(const virga_effect *effect, const virga_target_class *class_of);
 

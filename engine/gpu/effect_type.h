@@ -241,6 +241,9 @@ typedef struct virga_effect_type {
     /* (optional) Bits that are set in the specialisation constant 0 of every pass, and of every draw. */
     uint32_t (*pass_constant)(const void *object);
     uint32_t (*draw_constant)(const void *object);
+    /* (optional) The rows of `draws` that an object with these settings may draw with, as bits. Pipelines of other rows
+     * are built once its settings want them. Without it: all rows. */
+    uint32_t (*wanted_draws)(const void *settings);
     /* (optional) The device has not executed calls of a completed frame. `did` tells what they recorded. What later
      * frames need must be recorded again. */
     void (*lost)(void *object, uint64_t frame, uint32_t did);
@@ -329,7 +332,8 @@ typedef struct virga_effect_target {
     struct virga_effect_target *next;
     struct virga_target_class *class_of;
     const virga_target *from;                      /* the target that they were created for */
-    virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* by row, then by constant */
+    uint32_t rows;                                 /* whose pipelines were asked for, as bits */
+    virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* by row, then by constant; NULL: not wanted so far */
 } virga_effect_target;
 
 /* A view that was prepared. */

@@ -24,9 +24,11 @@ static void built_destroy(virga_context *context, virga_built *built)
     virga_free(&context->heap, built);
 }
 
+/* Passes of other names have pipelines of their own, so that each has its name in a debugger. */
 static bool is_same_compute(const virga_compute_def *a, const virga_compute_def *b)
 {
-    return a->shader.code == b->shader.code && a->layout == b->layout && a->constant == b->constant;
+    return a->shader.code == b->shader.code && a->layout == b->layout && a->constant == b->constant &&
+           !strcmp(a->name, b->name);
 }
 
 static bool is_same_target(const virga_graphics_def *a, const virga_graphics_def *b)
@@ -47,7 +49,7 @@ static bool is_same_graphics(const virga_graphics_def *a, const virga_graphics_d
            a->blend_premultiplied == b->blend_premultiplied && a->blend_add == b->blend_add &&
            a->add_all == b->add_all && a->no_color == b->no_color && a->depth_test == b->depth_test &&
            a->depth_write == b->depth_write && a->cull_back == b->cull_back && a->lines == b->lines &&
-           is_same_target(a, b);
+           is_same_target(a, b) && !strcmp(a->name, b->name);
 }
 
 static virga_built *find_compute(const virga_context *context, const virga_compute_def *def)

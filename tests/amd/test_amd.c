@@ -134,6 +134,15 @@ static virga_target *open_target(virga_context *context, const target_kind *kind
 
 /* ---- effects */
 
+/* Each style has its own pipelines. */
+static void set_style(virga_glass *pane, virga_glass_style style, float textured_px)
+{
+    virga_glass_settings settings = virga_default_glass_settings();
+    settings.style = style;
+    settings.textured_px = textured_px;
+    assert_int_equal(virga_glass_set(pane, &settings), VIRGA_OK);
+}
+
 static virga_scene *open_scene(virga_context *context)
 {
     virga_glass_def panes[SMALL_PANES];
@@ -142,6 +151,9 @@ static virga_scene *open_scene(virga_context *context)
     def.with_water = true;
     assert_int_equal(virga_scene_create(context, &def, &scene), VIRGA_OK);
     assert_int_equal(small_shapes_set(scene), VIRGA_OK);
+    set_style(virga_scene_glass(scene, 0), VIRGA_GLASS_STYLE_PHYSICAL, 8);
+    set_style(virga_scene_glass(scene, 1), VIRGA_GLASS_STYLE_PAPER, 0);
+    set_style(virga_scene_glass(scene, 2), VIRGA_GLASS_STYLE_FRONT, 0);
     return scene;
 }
 

@@ -166,6 +166,43 @@ static void builds_go_on_for_another_object(void **state)
     close_targets(&t);
 }
 
+/* ---- pipelines that settings want */
+
+/* A pane builds the pipelines of its own style, and those of another one when it gets it. */
+static void another_style_builds_its_pipelines(void **state)
+{
+    targets t;
+    uint32_t made[4];
+    open_targets(&t, state, VIRGA_PIPELINES_IMMEDIATE);
+    virga_glass_def def = virga_default_glass_def();
+    virga_glass_settings settings = virga_default_glass_settings();
+    virga_glass *pane = NULL;
+    def.max_drops = 256;
+    REQUIRE(virga_glass_create(t.context, &def, &pane) == VIRGA_OK);
+    assert_int_equal(virga_glass_attach(pane, t.picture.target), VIRGA_OK);
+    made[0] = watch.made[WATCH_Pipeline];
+    settings.style = VIRGA_GLASS_STYLE_FRONT;
+    assert_int_equal(virga_glass_set(pane, &settings), VIRGA_OK);
+    made[1] = watch.made[WATCH_Pipeline];
+    assert_in_range(made[1] - made[0], 1, 3);
+    settings.style = VIRGA_GLASS_STYLE_PHYSICAL;
+    assert_int_equal(virga_glass_set(pane, &settings), VIRGA_OK);
+    settings.style = VIRGA_GLASS_STYLE_FRONT;
+    assert_int_equal(virga_glass_set(pane, &settings), VIRGA_OK);
+    assert_int_equal(watch.made[WATCH_Pipeline], made[1]);
+    settings.style = VIRGA_GLASS_STYLE_PAPER;
+    assert_int_equal(virga_glass_set(pane, &settings), VIRGA_OK);
+    made[2] = watch.made[WATCH_Pipeline];
+    assert_true(made[2] > made[1]);
+    virga_target *second = make_target(&t, 0); /* of another class: it needs those of the style that is set */
+    assert_int_equal(virga_glass_attach(pane, second), VIRGA_OK);
+    made[3] = watch.made[WATCH_Pipeline];
+    assert_true(made[3] > made[2]);
+    virga_target_destroy(&second);
+    virga_glass_destroy(&pane);
+    close_targets(&t);
+}
+
 /* ---- a render pass, by what it was created with */
 
 static void refuse(targets *t, const virga_target_def *def, const char *why)
@@ -242,6 +279,7 @@ int main(void)
         gpu_kept_test(waiting_pipelines_move_to_another_target_of_the_class),
         gpu_kept_test(a_second_object_compiles_nothing),
         gpu_kept_test(builds_go_on_for_another_object),
+        gpu_kept_test(another_style_builds_its_pipelines),
         gpu_kept_test(a_target_that_is_not_its_render_pass_is_refused),
         gpu_kept_test(strict_contexts_ask_for_it),
     };

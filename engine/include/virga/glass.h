@@ -509,9 +509,10 @@ VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
 /* Applies new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity or a wrong cookie:
  * VIRGA_ERROR_INVALID, and nothing changes.
  *
- * A density, blend or style that this pane has not had yet needs three more pipelines; so do more than five steps of
- * compression. They are built as virga_context_def.pipeline_build_mode says, and the pane is not drawn until they are
- * there. Their errors are those of virga_glass_create, and then nothing changes. */
+ * A style that this pane has not had yet needs 2 to 20 pipelines for each attached target. A new density, blend or
+ * style needs three more; so do more than five steps of compression. They are built as
+ * virga_context_def.pipeline_build_mode says, and the pane is not drawn until they are there. Their errors are those of
+ * virga_glass_create, and then nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);
 
 /* Reads the current settings. */
