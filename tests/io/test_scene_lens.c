@@ -157,9 +157,13 @@ static void angles_go_with_the_kind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST_IN_FOLDER(a_lens_is_dry_by_default), TEST_IN_FOLDER(its_pane_is_before_the_opening),
-        TEST_IN_FOLDER(a_cloth_wipes_all_of_it),  TEST_IN_FOLDER(defaults_are_those_of_panes),
-        TEST_IN_FOLDER(mistakes_are_one_line),    TEST_IN_FOLDER(angles_go_with_the_kind),
+        TEST_IN_FOLDER(a_lens_is_dry_by_default),
+        TEST_IN_FOLDER(its_pane_is_before_the_opening),
+        TEST_IN_FOLDER(a_cloth_wipes_all_of_it),
+        TEST_IN_FOLDER(defaults_are_those_of_panes),
+        TEST_IN_FOLDER(mistakes_are_one_line),
+        TEST_IN_FOLDER(angles_go_with_the_kind),
+        TEST_IN_FOLDER(its_opening_is_that_of_the_camera),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
