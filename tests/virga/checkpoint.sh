@@ -26,7 +26,7 @@ camera:
   keys:
     - {time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}
     - {time_s: 0.5, position_m: [0, 1, -3], look_at_m: [0, 1, -6]}
-frames: {fps: 24, first: 1, last: 9, size: [64, 36], preroll_s: 0.2}
+frames: {fps: 24, first: 1, last: 9, size: [64, 36], preroll_s: 0.2, warm_start: false}
 rain:
   keys:
     - {time_s: 0, rate_mm_h: 20, wind_m_s: [0, 0, 0]}

@@ -19,7 +19,7 @@ cat >"$work/scene.yaml" <<'YAML'
 virga: 1
 meshes: [{file: box.obj}]
 camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
-frames: {fps: 24, first: 1, last: 12, size: [64, 36], preroll_s: 0.1}
+frames: {fps: 24, first: 1, last: 12, size: [64, 36], preroll_s: 0.1, warm_start: false}
 rain: {rate_mm_h: 30, gust_m_s: 1, max_drops: 4096, occlusion_size: 64}
 ground: {on: true, cells: 128, start_water_mm: 3}
 YAML
