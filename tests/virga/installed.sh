@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The program as `meson install` leaves it, under any prefix: it finds its own library, and its manual page is there.
+# The program as `meson install` leaves it, under any prefix: it finds its own library and the module that reads
+# pictures, and its manual page is there.
 # Usage: installed.sh BUILD_ROOT PREFIX
 set -eu
 build=$1 prefix=$2
@@ -16,3 +17,8 @@ case $(realpath "${library:-$work}") in # nothing where the library is static
     *) echo "it takes another library: $library"; exit 1 ;;
 esac
 [ -s "$(find "$work$prefix" -name virga.1)" ] || { echo "no manual page"; exit 1; }
+# The module is loaded with the first picture; this one is damaged.
+printf 'virga: 1\ncamera: {keys: [{position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}\n' >"$work/scene.yaml"
+echo words >"$work/plate.png"
+"$work$prefix/bin/virga" render "$work/scene.yaml" -o "$work/out" --plate "$work/plate.png" 2>"$work/log" && exit 1
+grep -q -e 'not a PNG picture' -e 'built without OpenImageIO' "$work/log" || { cat "$work/log"; exit 1; }

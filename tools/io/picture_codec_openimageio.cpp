@@ -1,5 +1,6 @@
-// picture_codec.cpp - PNG, JPEG and TIFF through OpenImageIO, from and to memory. No exception leaves this file.
-#include "picture_codec.h"
+// picture_codec_openimageio.cpp - PNG, JPEG and TIFF through OpenImageIO, from and to memory: the module that
+// picture_codec.c loads. No exception leaves this file.
+#include "picture_codec_table.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -117,14 +118,7 @@ bool write_pixels(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-} // namespace
-
-bool picture_codec_is_there(void)
-{
-    return true;
-}
-
-bool picture_decode(const void *data, size_t size, picture *p, char *reason, size_t reason_size)
+bool decode(const void *data, size_t size, picture *p, char *reason, size_t reason_size)
 {
     const answer out = {reason, reason_size};
     const char *const name = names[p->format.kind];
@@ -150,8 +144,8 @@ bool picture_decode(const void *data, size_t size, picture *p, char *reason, siz
     return false;
 }
 
-bool picture_encode(picture_format format, uint32_t width, uint32_t height, const void *samples, void **data,
-                    size_t *size, char *reason, size_t reason_size)
+bool encode(picture_format format, uint32_t width, uint32_t height, const void *samples, void **data, size_t *size,
+            char *reason, size_t reason_size)
 {
     const answer out = {reason, reason_size};
     *data = nullptr;
@@ -172,3 +166,7 @@ bool picture_encode(picture_format format, uint32_t width, uint32_t height, cons
         return out.refuse(problem.what());
     }
 }
+
+} // namespace
+
+const picture_codec_table PICTURE_CODEC_TABLE = {decode, encode};
