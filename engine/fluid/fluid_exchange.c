@@ -53,7 +53,7 @@ virga_result fluid_check_region(const virga_fluid *fluid, const virga_fluid_step
     if (info->leavers && !fluid->def.max_exchanged)
         return virga_wrong_argument(log, "step_info.leavers: expected fluid_def.max_exchanged above 0");
     if (info->leavers)
-        return virga_host_list_check(fluid->base.context, "step_info.leavers", 0, info->leavers_size,
+        return virga_host_list_check(fluid->base.context, "step_info.leavers", info->leavers, 0, info->leavers_size,
                                      sizeof(virga_leavers_gpu));
     return VIRGA_OK;
 }

@@ -285,6 +285,8 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     virga_context *context = fluid->base.context;
     virga_effect_begin_step(&fluid->base, cmd);
     virga_effect_first_contents(&fluid->base, cmd);
+    virga_effect_reads(&fluid->base, cmd, info->count ? info->particles : VK_NULL_HANDLE);
+    virga_effect_reads(&fluid->base, cmd, info->leavers);
     begin_state(fluid, cmd, info->dt_s);
     add_all(fluid, cmd, info);
     virga_fluid_step_gpu step;

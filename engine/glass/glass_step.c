@@ -2,6 +2,7 @@
 #include "glass/glass_internal.h"
 
 #include "core/settings.h"
+#include "gpu/checks.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -494,7 +495,8 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
         virga_settings_check_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
         virga_settings_check_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
         virga_settings_check_finite(log, "step_info.angular_velocity_rad_s", info->angular_velocity_rad_s, 3) ||
-        virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
+        virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
+        virga_host_buffer_check(glass->base.context, "step_info.impacts", info->impacts))
         return VIRGA_ERROR_INVALID;
     if (!(info->rate_mm_h >= 0 && info->rate_mm_h <= 200))
         return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
@@ -560,6 +562,7 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
     if (virga_effect_first_contents(&glass->base, cmd))
         glass_picture_forget(glass); /* the images may have lost their contents */
+    virga_effect_reads(&glass->base, cmd, info->impacts);
     upload_shape(glass, cmd);
     if (info->ticks)
         record_ticks(glass, cmd, info);

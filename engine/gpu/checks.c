@@ -3,10 +3,21 @@
 
 #include "gpu/context.h"
 #include "gpu/errors.h"
+#include "gpu/resources.h"
 
-virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+virga_result virga_host_buffer_check(const virga_context *context, const char *name, VkBuffer buffer)
+{
+    if (buffer && virga_buffer_is_retired(context, buffer))
+        return virga_wrong_argument(&context->log, "%s: expected a buffer that lives, got one of a destroyed object",
+                                    name);
+    return VIRGA_OK;
+}
+
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkBuffer buffer, VkDeviceSize offset,
                                    VkDeviceSize size, VkDeviceSize min_size)
 {
+    if (virga_host_buffer_check(context, name, buffer))
+        return VIRGA_ERROR_INVALID;
     const VkDeviceSize required = context->properties.limits.minStorageBufferOffsetAlignment;
     const VkDeviceSize alignment = required > 4 ? required : 4; /* it contains indirect arguments */
     if (offset % alignment)

@@ -6,9 +6,13 @@
 
 #include <virga/vulkan.h>
 
-/* A host's list in a storage buffer: its offset must be aligned, and its size (0: not given) must hold `min_size`
- * bytes. `name` is the member that holds the buffer; the members name_offset and name_size belong to it. */
-virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+/* A buffer that a host passes on from an object of the context that was destroyed since is refused. One of the host's
+ * own, or NULL, is not checked. `name` is the member that holds it. */
+virga_result virga_host_buffer_check(const virga_context *context, const char *name, VkBuffer buffer);
+
+/* The same for a list in a storage buffer. Its offset must also be aligned, and its size (0: not given) must hold
+ * `min_size` bytes. The members name_offset and name_size belong to it. */
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkBuffer buffer, VkDeviceSize offset,
                                    VkDeviceSize size, VkDeviceSize min_size);
 
 /* The range to bind of such a list: its size, at most `max_range` and what the device allows; VK_WHOLE_SIZE if no size

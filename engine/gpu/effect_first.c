@@ -31,8 +31,9 @@ virga_result virga_effect_create_fills(virga_effect *effect)
             count += virga_effect_copies(effect, effect->type->buffers[i].per_view);
     if (!count)
         return VIRGA_OK;
-    const virga_result result = virga_bindings_create(effect->context, kinds, VIRGA_ROWS(kinds), count + 1,
-                                                      4 * sizeof(uint32_t), &effect->fill_bindings);
+    const virga_result result =
+        virga_bindings_create(effect->context, kinds, VIRGA_ROWS(kinds), count + VIRGA_EFFECT_MAX_READS,
+                              4 * sizeof(uint32_t), &effect->fill_bindings);
     if (result)
         return result;
     const virga_compute_def def = {.shader = VIRGA_SPIRV(gpu_first_fill_comp),
@@ -42,17 +43,18 @@ virga_result virga_effect_create_fills(virga_effect *effect)
     return virga_compute_pipeline_create(effect->context, &def, &effect->fill_pass);
 }
 
-static void record_fill(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_buffer *row, virga_bound filled,
-                        uint32_t set_index)
+/* `owner` has the buffer. */
+static void record_fill(virga_effect *effect, VkCommandBuffer cmd, const virga_effect *owner,
+                        const virga_effect_buffer *row, const virga_buffer *filled, uint32_t set_index)
 {
     virga_context *context = effect->context;
     const virga_bound bound[VIRGA_MAX_BINDINGS] = {
-        filled,
-        {.buffer = effect->journal.marks->buffer, .range = sizeof(uint32_t)},
+        {.buffer = filled->buffer, .range = filled->size},
+        {.buffer = owner->journal.marks->buffer, .range = sizeof(uint32_t)},
     };
     const VkDescriptorSet set = virga_bindings_write(context, effect->fill_bindings, set_index, bound);
     const VkPipelineLayout layout = effect->fill_bindings->layout;
-    const uint32_t words = (uint32_t)(filled.range / sizeof(uint32_t)), groups = (words + FILL_GROUP - 1) / FILL_GROUP;
+    const uint32_t words = (uint32_t)(filled->size / sizeof(uint32_t)), groups = (words + FILL_GROUP - 1) / FILL_GROUP;
     const uint32_t constants[4] = {words, row->fill, row->word, row->word_value};
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
     context->vk.CmdPushConstants(cmd, layout, VIRGA_ALL_STAGES, 0, sizeof constants, constants);
@@ -61,21 +63,17 @@ static void record_fill(virga_effect *effect, VkCommandBuffer cmd, const virga_e
 
 static void record_fills(virga_effect *effect, VkCommandBuffer cmd)
 {
-    static const virga_effect_buffer zero = {.first = VIRGA_FIRST_FILL};
     uint32_t set_index = 0;
     for (uint32_t i = 0; i < effect->type->buffer_count; i++) {
         const virga_effect_buffer *row = &effect->type->buffers[i];
         for (uint32_t k = 0; k < virga_effect_copies(effect, row->per_view); k++) {
             const virga_buffer *buffer = *(virga_buffer **)virga_effect_copy(effect, row->member, row->per_view, k);
             if (buffer && by_pass(row))
-                record_fill(effect, cmd, row, (virga_bound){.buffer = buffer->buffer, .range = buffer->size},
-                            set_index++);
+                record_fill(effect, cmd, effect, row, buffer, set_index++);
             else if (buffer && row->first == VIRGA_FIRST_FILL)
                 effect->context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
         }
     }
-    if (effect->first_head.buffer)
-        record_fill(effect, cmd, &zero, effect->first_head, set_index);
 }
 
 /* ---- images */
@@ -146,6 +144,43 @@ bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
     const bool recorded = record_first_contents(effect, cmd) || effect->own_first;
     effect->own_first = false;
     return recorded;
+}
+
+/* ---- lists of other effects */
+
+/* The effect that has a buffer, and its row; NULL: it is the host's. */
+static virga_effect *owner_of(const virga_context *context, VkBuffer buffer, const virga_effect_buffer **row,
+                              const virga_buffer **found)
+{
+    for (virga_effect *owner = context->first_effect; owner; owner = owner->next_effect)
+        for (uint32_t i = 0; i < owner->type->buffer_count; i++) {
+            *row = &owner->type->buffers[i];
+            *found = *(virga_buffer **)virga_effect_member(owner, (*row)->member);
+            if (*found && (*found)->buffer == buffer)
+                return owner;
+        }
+    return NULL;
+}
+
+/* The fill is guarded by the mark of the owner. So it does nothing if the owner's first contents were executed, also
+ * earlier in this frame, and the owner's own recording does the same. */
+void virga_effect_reads(virga_effect *effect, VkCommandBuffer cmd, VkBuffer buffer)
+{
+    virga_context *context = effect->context;
+    const virga_effect_buffer *row;
+    const virga_buffer *found;
+    const virga_effect *owner = buffer ? owner_of(context, buffer, &row, &found) : NULL;
+    if (!owner || owner == effect || owner->contents == VIRGA_EXECUTED || !by_pass(row))
+        return;
+    if (effect->reads_frame != context->frame_index)
+        effect->reads = 0;
+    effect->reads_frame = context->frame_index;
+    if (effect->reads >= VIRGA_EFFECT_MAX_READS)
+        return;
+    wait_for_earlier_frames(context, cmd);
+    const uint32_t first_set = effect->fill_bindings->sets_per_frame - VIRGA_EFFECT_MAX_READS;
+    record_fill(effect, cmd, owner, row, found, first_set + effect->reads++);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES);
 }
 
 /* ---- uploads */

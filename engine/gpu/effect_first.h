@@ -12,6 +12,13 @@
  * or not the earlier frames are lost. */
 bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd);
 
+/* Before an effect reads a list that may be another effect's. If the device is not known to have executed the first
+ * contents of its owner, they are recorded for this list: the owner may not have stepped yet, or in lost frames only.
+ * Then the list is empty, where it would be whatever the memory held: also numbers of workgroups. Buffers of the host
+ * are left alone. The effect has buffers that are filled, and calls this at most VIRGA_EFFECT_MAX_READS times in a
+ * frame. */
+void virga_effect_reads(virga_effect *effect, VkCommandBuffer cmd, VkBuffer buffer);
+
 /* Creates the pass that fills buffers. */
 virga_result virga_effect_create_fills(virga_effect *effect);
 

@@ -356,6 +356,7 @@ typedef struct virga_effect_upload {
 } virga_effect_upload;
 
 #define VIRGA_EFFECT_MAX_UPLOADS 4
+#define VIRGA_EFFECT_MAX_READS   16 /* lists of other effects that calls of one frame read */
 
 /* Whether something was recorded, and whether the device has executed it. */
 typedef enum virga_progress { VIRGA_NOT_RECORDED, VIRGA_RECORDED, VIRGA_EXECUTED } virga_progress;
@@ -371,7 +372,8 @@ typedef struct virga_effect {
     uint64_t contents_frame;         /* the newest frame in which they were recorded */
     virga_bindings *fill_bindings;   /* of the pass that fills buffers; NULL: there are none to fill */
     virga_pipeline *fill_pass;
-    virga_bound first_head; /* (optional) the head of a list of another effect, which is filled with 0 too */
+    uint64_t reads_frame; /* the newest frame in which lists of other effects were filled, see virga_effect_reads */
+    uint32_t reads;       /* how many of them */
     virga_effect_upload uploads[VIRGA_EFFECT_MAX_UPLOADS];
     uint64_t load_frame;         /* the frame in which a state was loaded last */
     bool own_first;              /* a load has recorded first contents, and the effect not yet those of its own */

@@ -101,6 +101,14 @@ error:
     return result;
 }
 
+bool virga_buffer_is_retired(const virga_context *context, VkBuffer buffer)
+{
+    for (const virga_resource *retired = context->retired; retired; retired = retired->next)
+        if (retired->destroy == buffer_destroy && ((const virga_buffer *)retired)->buffer == buffer)
+            return true;
+    return false;
+}
+
 /* The mapped range, extended to whole atoms. They belong to this buffer, see virga_buffer_create. */
 static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset,
                                         VkDeviceSize size)

@@ -42,6 +42,9 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **image);
 
+/* Whether it is a buffer of the library whose object was destroyed, and which frames in flight may still use. */
+bool virga_buffer_is_retired(const virga_context *context, VkBuffer buffer);
+
 /* These make the host's writes visible to the device, and the device's writes visible to the host. A failed flush is
  * logged, and the API call that flushed returns virga_check_uploads(). */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);

@@ -109,7 +109,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 #define KEPT_USE     (MAP_USE | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
 
 static const virga_effect_buffer buffers[] = {
-    {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS, .keeps = true},
+    {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS, FILL,
+     GROUND_NO_MATERIAL},
     {"ground.cells", AT(cells), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_CELLS, FILL},
     {"ground.arrivals", AT(arrivals), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_arrivals_gpu), COUNT_CELLS, FILL},
     {"ground.stirs", AT(stirs), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},

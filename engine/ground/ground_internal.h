@@ -126,6 +126,8 @@ void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const grou
 
 /* ---- ground_far.c */
 
+#define GROUND_NO_MATERIAL 0xffu /* a cell without ground: see virga_floor_gpu.material */
+
 #define GROUND_HEIGHT_MAP_TOP_M   256.0 /* above base_m */
 #define GROUND_HEIGHT_MAP_DEPTH_M 512.0
 

@@ -4,8 +4,6 @@
 #include "core/settings.h"
 #include "gpu/state_check.h"
 
-#define NO_GROUND 0xff /* see virga_floor_gpu.material */
-
 /* A tile is in the cache if it has left the window. The cache has twice the tiles of the window, so there is a free
  * slot in each move, as long as no tile claims to be wanted or to have left in a move that has not been. */
 static void check_cache(const virga_ground *ground, virga_state_check *check)
@@ -24,7 +22,7 @@ static void check_cache(const virga_ground *ground, virga_state_check *check)
 
 static void expect_material(virga_state_check *check, const char *name, uint32_t material)
 {
-    if (material != NO_GROUND)
+    if (material != GROUND_NO_MATERIAL)
         virga_state_expect(check, name, material, 0, VIRGA_GROUND_MATERIALS - 1);
 }
 

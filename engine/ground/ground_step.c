@@ -541,13 +541,11 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     if (!ground->has_base) /* rounded to float, as shaders and hosts receive it */
         ground->base_m = (double)(float)floor(ground->info.camera_m[1]);
     ground->has_base = true;
-    /* If the first frames of ground and splashes are lost, the ground is the first to read the list. */
-    if (ground->info.returned_droplets)
-        ground->base.first_head = (virga_bound){.buffer = ground->info.returned_droplets,
-                                                .offset = ground->info.returned_droplets_offset,
-                                                .range = sizeof(virga_impacts_gpu)};
     const bool first = virga_effect_first_contents(&ground->base, cmd);
-    ground->base.first_head = (virga_bound){0}; /* the host owns it */
+    virga_effect_reads(&ground->base, cmd, ground->info.impacts);
+    virga_effect_reads(&ground->base, cmd, ground->info.returned_droplets);
+    virga_effect_reads(&ground->base, cmd, ground->info.exchange.buffer);
+    virga_effect_reads(&ground->base, cmd, ground->info.water_count ? ground->info.water : VK_NULL_HANDLE);
     ground->far.is_unsure = first;
     if (!first)
         return;
@@ -568,8 +566,8 @@ static virga_result check_exchange(const virga_ground *ground, const virga_groun
         virga_settings_check_positions(log, "step_info.exchange.low_m", exchange->low_m, 2) ||
         virga_settings_check_positions(log, "step_info.exchange.high_m", exchange->high_m, 2))
         return VIRGA_ERROR_INVALID;
-    if (exchange->buffer && virga_host_list_check(context, "step_info.exchange", exchange->offset, exchange->size,
-                                                  sizeof(virga_exchange_gpu)))
+    if (exchange->buffer && virga_host_list_check(context, "step_info.exchange", exchange->buffer, exchange->offset,
+                                                  exchange->size, sizeof(virga_exchange_gpu)))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -578,11 +576,13 @@ static virga_result check_buffers(const virga_ground *ground, const virga_ground
 {
     const virga_context *context = ground->base.context;
     const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
-    if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
+    if (virga_host_list_check(context, "step_info.impacts", info->impacts, info->impacts_offset, info->impacts_size,
                               sizeof(virga_impacts_gpu)) ||
-        (info->returned_droplets &&
-         virga_host_list_check(context, "step_info.returned_droplets", info->returned_droplets_offset,
-                               info->returned_droplets_size, sizeof(virga_impacts_gpu))))
+        (info->returned_droplets && virga_host_list_check(context, "step_info.returned_droplets",
+                                                          info->returned_droplets, info->returned_droplets_offset,
+                                                          info->returned_droplets_size, sizeof(virga_impacts_gpu))))
+        return VIRGA_ERROR_INVALID;
+    if (virga_host_buffer_check(context, "step_info.water", info->water))
         return VIRGA_ERROR_INVALID;
     if (info->water && (info->water_offset % context->properties.limits.minStorageBufferOffsetAlignment ||
                         !(info->water_spacing_m >= 0 && info->water_spacing_m <= 10) ||

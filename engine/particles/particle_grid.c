@@ -1,6 +1,7 @@
 /* particles/particle_grid.c - records the passes that sort particles into the neighbour grid. */
 #include "particles/particle_grid.h"
 
+#include "gpu/checks.h"
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
@@ -16,7 +17,7 @@ virga_result particles_check(const virga_context *context, VkBuffer particles, V
     if (offset % alignment)
         return virga_wrong_argument(&context->log, "step_info.offset: expected a multiple of %u, got %llu",
                                     (uint32_t)alignment, (unsigned long long)offset);
-    return VIRGA_OK;
+    return virga_host_buffer_check(context, "step_info.particles", particles);
 }
 
 virga_bound particles_bound(VkBuffer particles, VkDeviceSize offset, uint32_t count, const virga_buffer *unread)

@@ -151,7 +151,7 @@ static const virga_effect_buffer buffers[] = {
     {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL,
      .per_view = true},
     {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER, .per_view = true},
-    {"rain.hits", AT(hit_buffer), VIRGA_USE_STORAGE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
+    {"rain.hits", AT(hit_buffer), VIRGA_USE_STORAGE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES, FILL, .scratch = true},
     {"rain.hit_offsets", AT(hit_offset_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
     {"rain.sways", AT(sway_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
     {"rain.points", AT(point_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},

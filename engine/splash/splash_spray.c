@@ -9,6 +9,7 @@
 #include "gpu/timers.h"
 
 _Static_assert(VIRGA_SPLASH_MAX_PANES == VIRGA_SPLASH_PANES, "the same number in the public header");
+_Static_assert(4 + VIRGA_SPLASH_MAX_PANES <= VIRGA_EFFECT_MAX_READS, "lists of a step, and hits of each pane");
 
 static virga_result check_pane(const virga_log *log, const virga_splash_pane *pane)
 {
@@ -27,7 +28,10 @@ virga_result splash_spray_check(const virga_splash *splash, const virga_splash_s
 {
     const virga_log *log = &splash->base.context->log;
     const virga_splash_floors *floors = &info->floors;
-    if (virga_settings_check_positions(log, "step_info.handed_origin_m", info->handed_origin_m, 3))
+    if (virga_settings_check_positions(log, "step_info.handed_origin_m", info->handed_origin_m, 3) ||
+        virga_host_buffer_check(splash->base.context, "step_info.leavers", info->leavers) ||
+        virga_host_buffer_check(splash->base.context, "step_info.leaver_table", info->leaver_table) ||
+        virga_host_buffer_check(splash->base.context, "step_info.floors", floors->floors))
         return VIRGA_ERROR_INVALID;
     if (!(info->handed_late_s >= 0 && info->handed_late_s <= 1))
         return virga_wrong_argument(log, "step_info.handed_late_s: expected 0 to 1, got %g",
@@ -88,7 +92,7 @@ static virga_result check_hits(const virga_splash *splash, VkCommandBuffer cmd, 
         return virga_wrong_argument(&context->log, "virga_splash_give_hits: expected virga_splash_step before it");
     if (splash->hits_frame == context->frame_index && splash->hits_given & 1u << pane)
         return virga_wrong_argument(&context->log, "virga_splash_give_hits: twice for pane %u in a frame", pane);
-    const virga_result listed = virga_host_list_check(context, "hits", offset, size, least);
+    const virga_result listed = virga_host_list_check(context, "hits", hits, offset, size, least);
     return listed ? listed : virga_effect_ready(&splash->base);
 }
 
@@ -107,6 +111,7 @@ virga_result virga_splash_give_hits(virga_splash *splash, VkCommandBuffer cmd, u
     splash->hits_given |= 1u << pane;
     const uint32_t push[2] = {pane, (uint32_t)((size - sizeof(virga_impacts_gpu)) / sizeof(virga_impact_gpu))};
     const VkDescriptorSet set = splash_write_hits_set(splash, pane, hits, offset, size);
+    virga_effect_reads(&splash->base, cmd, hits);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.hits");
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->hits_bindings, set, 0, NULL);
     context->vk.CmdPushConstants(cmd, splash->hits_bindings->layout, VIRGA_ALL_STAGES, 0, sizeof push, push);

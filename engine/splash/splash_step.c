@@ -166,8 +166,8 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
     if (virga_effect_check_ticks(&splash->base, &ticks, splash->ticks ? &splash->last_tick : NULL) ||
         virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
-        virga_host_list_check(splash->base.context, "step_info.spawns", info->spawns_offset, info->spawns_size,
-                              sizeof(virga_spawns_gpu)) ||
+        virga_host_list_check(splash->base.context, "step_info.spawns", info->spawns, info->spawns_offset,
+                              info->spawns_size, sizeof(virga_spawns_gpu)) ||
         splash_spray_check(splash, info))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&splash->base);
@@ -197,6 +197,10 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash->spawns = VK_NULL_HANDLE; /* the host owns it and may destroy it */
     if (virga_effect_first_contents(&splash->base, cmd))
         write_indices(splash, cmd);
+    virga_effect_reads(&splash->base, cmd, info->spawns);
+    virga_effect_reads(&splash->base, cmd, info->leavers);
+    virga_effect_reads(&splash->base, cmd, info->leaver_table);
+    virga_effect_reads(&splash->base, cmd, info->floors.floors);
     remember(splash);
     follow(splash, cmd, info);
     for (uint32_t i = 0; i < info->ticks; i++)

@@ -201,8 +201,8 @@ static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, co
     if (particles_check(context, info->particles, info->offset, info->count) ||
         virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3) ||
         virga_settings_check_positions(&context->log, "step_info.time_s", &info->time_s, 1) ||
-        (info->handed && virga_host_list_check(context, "step_info.handed", info->handed_offset, info->handed_size,
-                                               sizeof(virga_handed_droplets_gpu))))
+        (info->handed && virga_host_list_check(context, "step_info.handed", info->handed, info->handed_offset,
+                                               info->handed_size, sizeof(virga_handed_droplets_gpu))))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&water->base);
 }
@@ -221,16 +221,6 @@ static VkDescriptorSet write_set(virga_water *water, const virga_bindings *layou
                                 .range = virga_host_list_range(water->base.context, info->handed_size, VK_WHOLE_SIZE)}
                 : (virga_bound){.buffer = water->surfels->buffer}; /* neither read nor written */
     return virga_bindings_write(water->base.context, (virga_bindings *)layout, 0, bound);
-}
-
-/* If the first frames are lost, the water is the first to read the list of droplets that are handed over. */
-static void first_contents(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
-{
-    if (info->handed)
-        water->base.first_head = (virga_bound){
-            .buffer = info->handed, .offset = info->handed_offset, .range = sizeof(virga_handed_droplets_gpu)};
-    virga_effect_first_contents(&water->base, cmd);
-    water->base.first_head = (virga_bound){0}; /* the host owns it */
 }
 
 virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
@@ -255,7 +245,9 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
     const step_set foam = {water->foam.bindings, write_set(water, water->foam.bindings, info, particles), offset};
     virga_effect_begin_step(&water->base, cmd);
-    first_contents(water, cmd, info);
+    virga_effect_first_contents(&water->base, cmd);
+    virga_effect_reads(&water->base, cmd, info->handed);
+    virga_effect_reads(&water->base, cmd, particles ? info->particles : VK_NULL_HANDLE);
     water_spray_clear(water, cmd);
     if (!info->sub_frame)
         water_foam_clear(water, cmd);

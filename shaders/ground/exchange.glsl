@@ -7,6 +7,9 @@ layout(scalar, set = 0, binding = 28) buffer Exchange {
     virga_exchanged_gpu entries[]; // taken ones, then given ones
 };
 
+// Clamped to the list, because a host's buffer is not trusted.
+uint given_count() { return min(exchange.given, exchange.capacity); }
+
 // The cell below a position; NO_CELL where there is no ground.
 uint cell_below(float position[3])
 {

@@ -28,7 +28,7 @@ uint add_limited(uint cell_index, uint nl, uint limit)
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= exchange.given)
+    if (index >= given_count())
         return;
     const virga_exchanged_gpu entry = entries[exchange.capacity + index];
     const uint cell_index = cell_below(entry.position);

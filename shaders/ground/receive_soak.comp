@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= exchange.given)
+    if (index >= given_count())
         return;
     const uint cell_index = cell_below(entries[exchange.capacity + index].position);
     if (cell_index != NO_CELL)

@@ -26,6 +26,7 @@ enum {
     CALLS_GONE = CALLS_CONTEXTS,
     CALLS_SLOTS = 3,
     CALLS_BUFFER_BYTES = 1 << 16,
+    CALLS_STATE_BYTES = CALLS_BUFFER_BYTES + 64, /* offsets of states are smaller than 64 */
     CALLS_SIZE = 16
 };
 
@@ -102,7 +103,8 @@ typedef struct calls_device {
     void (*target)(calls *c, virga_target_def *def);       /* a target that can be drawn into */
     void (*render)(calls *c, uint32_t index, bool inside); /* begins or ends rendering */
     bool (*inside)(const calls *c, uint32_t index);
-    VkBuffer (*buffer)(calls *c); /* of CALLS_BUFFER_BYTES, for every use */
+    VkBuffer (*buffer)(calls *c);       /* of CALLS_BUFFER_BYTES, for every use */
+    VkBuffer (*state_buffer)(calls *c); /* where states are saved, and from where they are loaded */
     void (*image)(calls *c, VkFormat format, virga_image *image);
     void (*close)(calls *c); /* after a sequence: nothing may be left */
     void (*end)(void);       /* (optional) of the program */

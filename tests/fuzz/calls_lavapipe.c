@@ -11,7 +11,8 @@ enum { INDICES = 90 };
 static fixture gpu;
 static bool there, is_inside_pass, lost_frame;
 static host_target picture;
-static host_buffer words; /* random numbers, and indices of its first vertices */
+static host_buffer words;  /* random numbers, and indices of its first vertices */
+static host_buffer states; /* only for states: the library's copies would need a barrier before draws with it */
 static host_image color, depth, motion;
 
 static void must(bool good, const char *what)
@@ -32,9 +33,9 @@ static void make_image(host_image *image, VkFormat format, VkImageUsageFlags usa
 }
 
 /* Random positions and numbers, in which the first words are indices. */
-static void make_words(void)
+static void make_buffers(void)
 {
-    static uint32_t data[CALLS_BUFFER_BYTES / 4];
+    static uint32_t data[CALLS_BUFFER_BYTES / 4], zeros[CALLS_STATE_BYTES / 4];
     for (uint32_t i = 0; i < CALLS_BUFFER_BYTES / 4; i++) {
         const float number = (float)((i * 2654435761u) >> 8) / 16777216.0f - 0.5f;
         memcpy(&data[i], &number, 4);
@@ -46,6 +47,10 @@ static void make_words(void)
                                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                  "words", &words, gpu.error, sizeof gpu.error),
          "words");
+    must(host_buffer_create_with(&gpu.device, zeros, sizeof zeros,
+                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, "states", &states,
+                                 gpu.error, sizeof gpu.error),
+         "states");
 }
 
 static void open_device(void)
@@ -60,7 +65,7 @@ static void open_device(void)
     make_image(&color, VK_FORMAT_R16G16B16A16_SFLOAT, 0, "color");
     make_image(&motion, VK_FORMAT_R16G16_SFLOAT, 0, "motion");
     make_image(&depth, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth");
-    make_words();
+    make_buffers();
     must(host_begin_frame(&gpu.device, &cmd, gpu.error, sizeof gpu.error), "frame");
     const host_image *const images[] = {&color, &motion, &depth};
     for (int i = 0; i < 3; i++)
@@ -164,6 +169,13 @@ static VkBuffer buffer(calls *c)
     return words.buffer;
 }
 
+static VkBuffer state_buffer(calls *c)
+{
+    (void)c;
+    open_device();
+    return states.buffer;
+}
+
 static void image(calls *c, VkFormat format, virga_image *out)
 {
     const host_image *from = format == VK_FORMAT_D32_SFLOAT      ? &depth
@@ -201,6 +213,7 @@ static void close_device(void)
     host_image_destroy(&gpu.device, &motion);
     host_image_destroy(&gpu.device, &depth);
     host_buffer_destroy(&gpu.device, &words);
+    host_buffer_destroy(&gpu.device, &states);
     host_target_destroy(&gpu.device, &picture);
     must(!effect_device_give_back(&gpu), "the device");
     effect_device_destroy();
@@ -217,6 +230,7 @@ const calls_device calls_lavapipe = {.honest = true,
                                      .render = render,
                                      .inside = is_inside,
                                      .buffer = buffer,
+                                     .state_buffer = state_buffer,
                                      .image = image,
                                      .close = close_sequence,
                                      .end = close_device};

@@ -186,20 +186,20 @@ static void fill_exchange(calls *c, uint32_t context, virga_ground_exchange *out
     out->buffer = exchange.buffer;
 }
 
-/* Lists that a step reads are there once a step has written them: what a device finds in one that was never written may
- * be the number of workgroups, and no library can look at it. */
-static bool has_impacts(const calls *c, virga_rain *rain)
+/* Lists of other effects of the same context: of some of the steps. */
+static void fill_returns_and_water(calls *c, uint32_t context, virga_ground_step_info *info)
 {
-    virga_rain_stats stats = {0};
-    virga_rain_stats_get(rain, &stats);
-    return !c->device->honest || stats.time_s > 0;
-}
-
-static bool has_spawns(const calls *c, virga_ground *ground)
-{
-    virga_ground_stats stats = {0};
-    virga_ground_stats_get(ground, &stats);
-    return !c->device->honest || stats.frame_index;
+    const calls_handle splash = calls_pick(c, CALLS_SPLASH), fluid = calls_pick(c, CALLS_FLUID);
+    virga_splash_buffer returned = {0};
+    virga_fluid_buffer particles = {0};
+    if (splash.object && splash.context == context && calls_once_in(c, 2))
+        virga_splash_returned_droplets(splash.object, &returned);
+    info->returned_droplets = returned.buffer;
+    info->returned_droplets_size = returned.size;
+    if (fluid.object && fluid.context == context && calls_once_in(c, 2))
+        virga_fluid_particles(fluid.object, &particles, &info->water_count);
+    info->water = particles.buffer;
+    info->water_spacing_m = 0.05f;
 }
 
 /* The impacts of the rain that the step stands beside; where handles are not checked, anything. */
@@ -207,11 +207,12 @@ static void fill_events(calls *c, uint32_t context, virga_ground_step_info *info
 {
     const calls_handle rain = calls_pick(c, CALLS_RAIN);
     virga_rain_buffer impacts = {0};
-    if (rain.object && rain.context == context && has_impacts(c, rain.object))
+    if (rain.object && rain.context == context)
         virga_rain_impacts(rain.object, &impacts);
     info->impacts = impacts.buffer;
     info->impacts_offset = impacts.offset;
     info->impacts_size = impacts.size;
+    fill_returns_and_water(c, context, info);
     if (c->device->honest)
         return;
     info->impacts = calls_once_in(c, 3) ? c->device->buffer(c) : info->impacts;
@@ -225,7 +226,7 @@ void call_virga_ground_step(calls *c)
         CALLS_KEPT(virga_ground_step_info, meshes),       CALLS_KEPT(virga_ground_step_info, mesh_count),
         CALLS_KEPT(virga_ground_step_info, materials),    CALLS_KEPT(virga_ground_step_info, impacts),
         CALLS_KEPT(virga_ground_step_info, splash_rules), CALLS_KEPT(virga_ground_step_info, returned_droplets),
-        CALLS_KEPT(virga_ground_step_info, exchange)};
+        CALLS_KEPT(virga_ground_step_info, water),        CALLS_KEPT(virga_ground_step_info, exchange)};
     const calls_handle h = calls_pick(c, CALLS_GROUND), rain = calls_pick(c, CALLS_RAIN);
     virga_occluder meshes[2];
     VkCommandBuffer cmd;
@@ -280,9 +281,29 @@ GROUND_LIST(spawns)
 
 /* ---- splashes */
 
+/* Spray of water, and the floor below it. */
+static void fill_spray(calls *c, uint32_t context, virga_splash_step_info *info)
+{
+    const calls_handle water = calls_pick(c, CALLS_WATER), ground = calls_pick(c, CALLS_GROUND);
+    virga_water_leavers leavers = {0};
+    virga_ground_cells cells;
+    if (water.object && water.context == context && calls_once_in(c, 2))
+        virga_water_leavers_get(water.object, &leavers);
+    info->leavers = leavers.leavers;
+    info->leaver_table = leavers.table;
+    if (!ground.object || ground.context != context || calls_once_in(c, 2))
+        return;
+    virga_ground_cells_get(ground.object, &cells);
+    info->floors =
+        (virga_splash_floors){cells.floors, cells.tiles, {cells.low_tile[0], cells.low_tile[1]}, 0.05f, cells.base_m};
+}
+
 void call_virga_splash_step(calls *c)
 {
-    static const calls_member kept[] = {CALLS_KEPT(virga_splash_step_info, spawns)};
+    static const calls_member kept[] = {
+        CALLS_KEPT(virga_splash_step_info, spawns), CALLS_KEPT(virga_splash_step_info, leavers),
+        CALLS_KEPT(virga_splash_step_info, leaver_table), CALLS_KEPT(virga_splash_step_info, floors),
+        CALLS_KEPT(virga_splash_step_info, panes)};
     const calls_handle h = calls_pick(c, CALLS_SPLASH), rain = calls_pick(c, CALLS_RAIN),
                        ground = calls_pick(c, CALLS_GROUND);
     virga_splash_step_info info = {.wind_m_s = {1, 0, 0}};
@@ -290,8 +311,9 @@ void call_virga_splash_step(calls *c)
     const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
     fill_camera(c, info.camera_m);
-    if (ground.context == h.context && ground.object && has_spawns(c, ground.object))
+    if (ground.context == h.context && ground.object)
         virga_ground_spawns(ground.object, &info.spawns, &info.spawns_size);
+    fill_spray(c, h.context, &info);
     virga_rain_ticks(rain.object, &info.first_tick, &info.ticks);
     if (!rain.object)
         info.first_tick = info.ticks = 0;

@@ -171,5 +171,6 @@ const calls_device calls_stand_in = {.contexts = CALLS_CONTEXTS,
                                      .render = render,
                                      .inside = is_inside,
                                      .buffer = buffer,
+                                     .state_buffer = buffer,
                                      .image = image,
                                      .close = close_device};

@@ -32,7 +32,7 @@ void call_virga_state_read(calls *c)
 
 static virga_state_range fill_range(calls *c, VkDeviceSize size)
 {
-    return (virga_state_range){.buffer = calls_slip(c, 12) ? VK_NULL_HANDLE : c->device->buffer(c),
+    return (virga_state_range){.buffer = calls_slip(c, 12) ? VK_NULL_HANDLE : c->device->state_buffer(c),
                                .offset = calls_once_in(c, 8) ? calls_below(c, 64) : 0,
                                .size = c->device->honest ? CALLS_BUFFER_BYTES
                                                          : size - (calls_once_in(c, 8) ? calls_below(c, 100) : 0)};
@@ -42,7 +42,7 @@ static virga_state_source fill_source(calls *c)
 {
     return (virga_state_source){.bytes = calls_slip(c, 12) ? NULL : random_state(c),
                                 .size = calls_below(c, STATE_BYTES + 1),
-                                .buffer = calls_slip(c, 12) ? VK_NULL_HANDLE : c->device->buffer(c),
+                                .buffer = calls_slip(c, 12) ? VK_NULL_HANDLE : c->device->state_buffer(c),
                                 .offset = calls_once_in(c, 8) ? calls_below(c, 64) : 0};
 }
 

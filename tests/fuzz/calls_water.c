@@ -4,13 +4,31 @@
 
 /* ---- water */
 
-static void fill_water_step(calls *c, virga_water_step_info *info)
+/* Particles of a solver, and the list of splashes that spray is handed to: of some of the steps. */
+static void fill_lists(calls *c, uint32_t context, virga_water_step_info *info)
+{
+    const calls_handle fluid = calls_pick(c, CALLS_FLUID), splash = calls_pick(c, CALLS_SPLASH);
+    virga_fluid_buffer particles = {0};
+    virga_splash_buffer handed = {0};
+    if (splash.object && splash.context == context && calls_once_in(c, 2))
+        virga_splash_handed(splash.object, &handed);
+    info->handed = handed.buffer;
+    info->handed_size = handed.size;
+    if (!fluid.object || fluid.context != context || calls_once_in(c, 2))
+        return;
+    virga_fluid_particles(fluid.object, &particles, &info->count);
+    info->particles = particles.buffer;
+}
+
+static void fill_water_step(calls *c, uint32_t context, virga_water_step_info *info)
 {
     static const calls_member kept[] = {CALLS_KEPT(virga_water_step_info, particles),
+                                        CALLS_KEPT(virga_water_step_info, handed),
                                         CALLS_BOOL(virga_water_step_info, sub_frame)};
     *info = (virga_water_step_info){.particles = calls_once_in(c, 6) ? VK_NULL_HANDLE : c->device->buffer(c),
                                     .count = calls_below(c, 200),
                                     .time_s = calls_number(c, 0, 10)};
+    fill_lists(c, context, info);
     if (!c->device->honest)
         CALLS_WILD(c, info, kept);
 }
@@ -22,7 +40,7 @@ void call_virga_water_step(calls *c)
     VkCommandBuffer cmd;
     const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, CALLS_RECORDS | CALLS_OUTSIDE | (wrong ? CALLS_WRONG : 0));
-    fill_water_step(c, &info);
+    fill_water_step(c, h.context, &info);
     if (calls_cmd(c, h.context, &flags, &cmd))
         CALLS_TRY(c, h.context, flags, virga_water_step, h.object, cmd, wrong ? NULL : &info);
 }

@@ -139,6 +139,30 @@ static void maps_of_the_host_wait_for_pipelines(void **state)
     assert_true(stand_in_close());
 }
 
+static void a_list_of_a_destroyed_object_is_refused(void **state)
+{
+    virga_context *context = open_context(VIRGA_PIPELINES_IMMEDIATE);
+    const virga_rain_def rain_def = virga_default_rain_def();
+    const virga_ground_def ground_def = virga_default_ground_def();
+    virga_rain *rain = NULL;
+    virga_ground *ground = NULL;
+    virga_rain_buffer impacts;
+    (void)state;
+    assert_int_equal(virga_rain_create(context, &rain_def, &rain), VIRGA_OK);
+    assert_int_equal(virga_ground_create(context, &ground_def, &ground), VIRGA_OK);
+    VkCommandBuffer cmd = stand_in_begin(VK_NULL_HANDLE);
+    assert_int_equal(virga_frame_begin(context, 1, 0), VIRGA_OK);
+    virga_rain_impacts(rain, &impacts);
+    const virga_ground_step_info step = {.impacts = impacts.buffer, .impacts_size = impacts.size};
+    virga_rain_destroy(&rain);
+    assert_int_equal(virga_ground_step(ground, cmd, &step), VIRGA_ERROR_INVALID);
+    assert_int_equal(lines[VIRGA_LOG_ARGUMENT], 1);
+    assert_int_equal(stand_in_count(cmd).commands, 0);
+    virga_ground_destroy(&ground);
+    virga_context_destroy(&context);
+    assert_true(stand_in_close());
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -147,6 +171,7 @@ int main(void)
         cmocka_unit_test(a_target_may_go_before_its_pipelines_are_built),
         cmocka_unit_test(rain_without_panes_finds_no_hits),
         cmocka_unit_test(maps_of_the_host_wait_for_pipelines),
+        cmocka_unit_test(a_list_of_a_destroyed_object_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,11 @@
  * one logs a line, and only sets the handle to NULL. Calls may come in any order; one that comes too early is refused,
  * or returns VIRGA_NOT_READY. Handles of Vulkan (command buffers, buffers, images) are not checked.
  *
+ * Lists. Effects pass lists to each other through the host, e.g. the impacts of rain to ground. A list whose effect has
+ * not stepped yet, or in lost frames only, is empty for the effect that reads it: a step of ground beside rain that has
+ * never stepped lets nothing land. A list of an object that was destroyed is refused while frames in flight may use it;
+ * afterwards its buffer does not exist. The group_count of a host's own list is used as it is.
+ *
  * Thread-safety: calls on one context, and on objects made from it, must not overlap. Different contexts may be used
  * from different threads at the same time, also on the same device.
  */
