@@ -40,8 +40,10 @@ vec2 cats_eye_shift(vec2 texel)
     return view.cats_eye * (half_size - texel - 0.5) / length(half_size);
 }
 
-// What the cat's eye does to the light that comes to a texel. So that an even picture stays even, light is divided by
-// the share of the aperture that is left. The disc of a lamp near a corner gains or loses up to a fifth of its light.
+// What the cat's eye does to the light that comes to a texel. Which points of the aperture a ray to a texel may pass
+// depends on the texel alone, whatever distance the ray comes from. Light is divided by the share of the aperture that
+// is left there, as a camera corrects its vignetting, so an even picture stays even. The light of a lamp's disc is then
+// that which passes the barrel: not the same in front of the focus and behind it.
 struct barrel {
     vec2 shift;       // of the second aperture, in radii
     float per_share;  // 1 / share of the aperture that is left
