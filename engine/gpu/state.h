@@ -6,7 +6,7 @@
 
 #include <virga/state.h>
 
-#define VIRGA_STATE_MAX_EFFECTS 32
+#define VIRGA_STATE_MAX_EFFECTS 144
 
 /* The effects that one state holds, in their order. `index` tells effects of one type apart. */
 typedef struct virga_state_effect {

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define VIRGA_MAX_PASSES  64  /* different pass names with a time each */
-#define VIRGA_MAX_QUERIES 512 /* timestamps per frame; passes beyond this number are not timed */
+#define VIRGA_MAX_PASSES  64   /* different pass names with a time each */
+#define VIRGA_MAX_QUERIES 4096 /* timestamps per frame; passes beyond this number are not timed */
 
 /* The timestamps of one frame in flight. */
 typedef struct virga_timer_slot {

@@ -314,7 +314,9 @@ double scene_wiper_angle_deg(const scene_wiper *wiper, double time_s)
 
 /* ---- life ----------------------------------------------------------------------------------------------------- */
 
-#define MAX_CATCHING 8u /* panes that catch the rain's own drops, see virga_rain_def.max_panes */
+/* So many panes catch the rain's own drops, see virga_rain_def.max_panes. Where there are more, as on a facade, most
+ * are far from the camera, where the rain has few drops: then each gets drops of its own, at the rain's rate. */
+#define MAX_CATCHING 8u
 
 static bool is_used(const scene_file *scene)
 {
@@ -362,7 +364,7 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
         fill_def(pane_at(s->scene, g, i), s->options.debug_maps, &g->defs[i]);
     def->panes = g->defs;
     def->pane_count = count;
-    def->rain.max_panes = count < MAX_CATCHING ? count : MAX_CATCHING;
+    def->rain.max_panes = count <= MAX_CATCHING ? count : 0;
     return true;
 }
 

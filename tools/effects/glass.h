@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-#define SCENE_FILE_MAX_PANES  16 /* the max of the library's scene */
-#define SCENE_FILE_MAX_WIPERS 8  /* per pane, the max of the library */
+#define SCENE_FILE_MAX_PANES  128 /* the max of the library's scene */
+#define SCENE_FILE_MAX_WIPERS 8   /* per pane, the max of the library */
 
 /* Keywords of panes. virga/glass.h explains their meaning. */
 typedef enum scene_pane_shape { SCENE_PANE_FLAT, SCENE_PANE_WINDSHIELD, SCENE_PANE_MESH } scene_pane_shape;

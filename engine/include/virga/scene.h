@@ -21,7 +21,7 @@ extern "C" {
 
 typedef struct virga_scene virga_scene; /* opaque */
 
-#define VIRGA_SCENE_MAX_PANES 16
+#define VIRGA_SCENE_MAX_PANES 128
 
 typedef struct virga_scene_def {
     uint32_t size, cookie;
@@ -46,7 +46,8 @@ typedef struct virga_scene_def {
      * get drops of their own, at the rate of the rain. Default NULL. */
     const virga_glass_def *panes;
 
-    /* [0; VIRGA_SCENE_MAX_PANES]. Default 0. */
+    /* [0; VIRGA_SCENE_MAX_PANES]. All panes share their pipelines. Each has memory (virga_glass_estimate) and passes of
+     * its own: many small panes cost as many dispatches, whatever is on them. Default 0. */
     uint32_t pane_count;
 
     /* Water from particles that each frame has. Default false. */

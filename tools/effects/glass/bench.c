@@ -1,6 +1,7 @@
 /* bench.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits
  * and the 30 to 40 frames a second of Goto, Tanaka and Sagawa 2009 (3,000 metaballs, 1024 x 1024). */
 #include "bench/bench.h"
+#include "bench_facade.h"
 #include "bench_textures.h"
 #include "camera.h"
 #include "effect.h"
@@ -228,6 +229,7 @@ static bool measure(bench *b, const struct row *row)
 static const option_row option_rows[] = {
     {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--textures", 0, NULL, "glass: measure 1000 drops as textures on 320 x 240 pixels, and other ways, only", false},
+    {"--facade", 0, NULL, "glass: measure 1, 10 and 100 windows of a facade only", false},
 };
 
 static bool read_balls(const options *parsed, uint32_t *balls)
@@ -251,6 +253,8 @@ static bool run(bench *b, const options *parsed)
     bool good = read_balls(parsed, &only);
     if (good && options_value(parsed, "--textures"))
         return glass_bench_textures(b);
+    if (good && options_value(parsed, "--facade"))
+        return glass_bench_facade(b);
     for (size_t i = 0; good && !interrupt_requested() && i < sizeof rows / sizeof rows[0]; i++)
         if (!only || rows[i].balls == only)
             good = measure(b, &rows[i]);
