@@ -234,7 +234,37 @@ static virga_lens_settings settings_of(const lens_case *row, const pictures *p)
     return settings;
 }
 
-static bool measure(bench *b, const lens_case *row, const pictures *p, double fill_ms)
+/* A fill of a picture of this size. */
+typedef struct fill_cost {
+    double waited, worked; /* ms, as in frame_times */
+} fill_cost;
+
+#define FILL_BYTES 16.0 /* per pixel: the target of measure_fill has floats */
+
+/* Texels that a gather reads for one of the work image: a disc of them, see row_reach in shaders/lens/aperture.glsl. */
+static double texels_of_disc(double radius)
+{
+    double sum = 0;
+    for (int y = (int)-ceil(radius); y <= (int)ceil(radius); y++)
+        sum += 2 * floor(sqrt(fmax((radius + 1) * (radius + 1) - y * y, 0))) + 1;
+    return sum;
+}
+
+/* A model, not a measurement: bytes that the passes of the physical style read and write for each pixel, if each texel
+ * comes from memory once for each time that a pass asks for it. Color and layer of this bench have 16 bytes, depth 4,
+ * samples and spreads 16, a field and the picture 8. All of the scene has the largest blur; the layer is sharp. */
+static double model_bytes(const lens_case *row, const pictures *p)
+{
+    const double texels = row->half_resolution ? 0.25 : 1; /* of the work image, per pixel */
+    const double ends = 16 + 16 + 8;                       /* combine: color and layer, and the picture */
+    if (row->radius_share <= 0)
+        return ends;
+    const double sample = 16 + 4 + texels * (16 + 16), tiles = texels * 16;
+    const double reach = texels_of_disc(row->radius_share * p->height * sqrt(texels));
+    return sample + tiles + texels * (16 * (1 + reach) + 2 * 8) + ends + 4 + texels * 2 * 8;
+}
+
+static bool measure(bench *b, const lens_case *row, const pictures *p, const fill_cost *fill)
 {
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens = NULL;
@@ -256,25 +286,30 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, double fi
         return options_complain("bench", "no lens could be measured");
     const double ms = fmax(bench_median(times.waited, runs) - bench_median(empty.waited, runs), 1e-3);
     const double worked = fmax(bench_median(times.worked, runs) - bench_median(empty.worked, runs), 1e-3);
-    printf("  %-16s %10.3f ms %9.1f frames/s %8.1f x a fill, processors %10.3f ms, median of %zu\n", row->what, ms,
-           1e3 / ms, ms / fill_ms, worked, runs);
+    printf("  %-16s %10.3f ms %9.1f frames/s %8.1f x a fill, processors %10.3f ms %8.1f x a fill, median of %zu\n",
+           row->what, ms, 1e3 / ms, ms / fill->waited, worked, worked / fill->worked, runs);
+    if (row->style == VIRGA_LENS_STYLE_PHYSICAL)
+        printf("  %-16s %10.0f bytes a pixel by a model %8.1f x a fill\n", "", model_bytes(row, p),
+               model_bytes(row, p) / FILL_BYTES);
     fflush(stdout);
     return true;
 }
 
-/* A fill of a picture of this size. */
-static bool measure_fill(bench *b, const pictures *p, double *ms)
+static bool measure_fill(bench *b, const pictures *p, fill_cost *cost)
 {
     host_target target;
     limits *l;
     if (!host_target_create(&b->device, p->width, p->height, &target, b->error, sizeof b->error))
         return bench_fail(b, "picture");
     bool good = limits_create(&b->device, &target, 1024, &l, b->error, sizeof b->error);
-    *ms = good ? limits_fill_ms(&b->device, l, &target) : -1;
+    cost->waited = good ? limits_fill_ms(&b->device, l, &target) : -1; /* the first compiles */
+    const double start = worked_ms();
+    cost->waited = good ? limits_fill_ms(&b->device, l, &target) : -1;
+    cost->worked = (worked_ms() - start) / BENCH_RUNS;
     if (good)
         limits_destroy(&b->device, &l);
     host_target_destroy(&b->device, &target);
-    return *ms > 0 || bench_fail(b, "fill");
+    return cost->waited > 0 || bench_fail(b, "fill");
 }
 
 static bool run(bench *b, const options *parsed)
@@ -284,12 +319,12 @@ static bool run(bench *b, const options *parsed)
     bool good = true;
     for (size_t i = 0; good && i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++) {
         pictures p = {.width = sizes[i][0], .height = sizes[i][1]};
-        double fill_ms;
-        good = open_pictures(b, &p) && measure_fill(b, &p, &fill_ms);
+        fill_cost fill;
+        good = open_pictures(b, &p) && measure_fill(b, &p, &fill);
         if (good)
-            printf("%u x %u, a fill takes %.3f ms\n", p.width, p.height, fill_ms);
+            printf("%u x %u, a fill takes %.3f ms, processors %.3f ms\n", p.width, p.height, fill.waited, fill.worked);
         for (size_t k = 0; good && k < sizeof cases / sizeof cases[0] && !interrupt_requested(); k++)
-            good = measure(b, &cases[k], &p, fill_ms);
+            good = measure(b, &cases[k], &p, &fill);
         close_pictures(b, &p);
     }
     return good;
