@@ -62,7 +62,7 @@ cp "$work/consumer.c" "$work/consumer.cpp"
 # ---- installed
 "$source/tests/gpu/compiled_shader.sh" "$build" --native-file >"$work/native.ini"
 quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib \
-    --buildtype release -Db_ndebug=true \
+    --buildtype release -Db_ndebug=true -Doptimization=1 \
     -Dtools=disabled -Dtests=disabled
 quietly nice ninja -j2 -C "$work/build"
 quietly meson install -C "$work/build" --no-rebuild
@@ -131,7 +131,8 @@ project('host', 'c', version: '1', default_options: ['c_std=c11', 'warning_level
 virga = subproject('virga')
 executable('consumer', 'consumer.c', dependencies: dependency('virga'))
 SOURCE
-quietly meson setup "$work/host/build" "$work/host" --native-file "$work/native.ini" --wrap-mode nofallback
+quietly meson setup "$work/host/build" "$work/host" --native-file "$work/native.ini" --wrap-mode nofallback \
+    --buildtype plain
 # The program and its libraries are not a host's business.
 if grep -qiE "dependency (openexr|assimp|cmocka|yaml-0.1) found" "$work/log"; then
     cat "$work/log"

@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-#define MM     2.5e6 /* nl on a cell of 5 cm */
-#define STEPS  60    /* of 16 ticks: 16 s */
-#define RAIN_H 45.0f /* mm/h: 0.2 mm in that time */
-#define ROUGH  9     /* a material */
+#define MM     2.5e6  /* nl on a cell of 5 cm */
+#define STEPS  24     /* of 16 ticks: 6.4 s */
+#define RAIN_H 112.5f /* mm/h: 0.2 mm in that time */
+#define ROUGH  9      /* a material */
 #define SPOTS \
     (1.5 * VIRGA_GROUND_SPREAD * VIRGA_GROUND_SPREAD) /* times rain over diameter: (pi / 4) / (pi / 6) of it */
 
@@ -230,10 +230,9 @@ static void test_spots_come_in_as_many_as_drops_leave(void **state)
     begin(ROUGH);
     f.settings.materials[ROUGH].capacity_mm = 1;
     set();
-    rain(10, 16); /* 1/30 mm in drops of 2 mm: a fifth of the ground */
+    rain(STEPS / 6, 16); /* 1/30 mm in drops of 2 mm: a fifth of the ground */
     go(9.7);
-    assert_float_equal(count_spots() / (192.0 * 256 * 64), 1 - exp(-SPOTS * (RAIN_H / 3600 * 160 / 60) / 2),
-                       0.008); /* in 64ths */
+    assert_float_equal(count_spots() / (192.0 * 256 * 64), 1 - exp(-SPOTS * 0.2 / 6 / 2), 0.008); /* in 64ths */
     end();
 }
 
@@ -306,7 +305,7 @@ static void test_the_map_shows_first_drops_and_stirred_puddles(void **state)
 {
     (void)state;
     begin(ROUGH);
-    rain(15, 16); /* 0.05 mm */
+    rain(STEPS / 4, 16); /* 0.05 mm */
     read_picture();
     const float spots = (float)(1 - exp(-SPOTS * 0.05 / 2));
     check_texel(texel_of(-30, 0), texel_of(0, 1), 0.5f, 0, -spots);

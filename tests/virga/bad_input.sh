@@ -13,7 +13,7 @@ if [ ! -f "$build/build.ninja" ]; then
     "$source/tests/gpu/compiled_shader.sh" "$2" --native-file >"$build.ini"
     meson setup "$build" "$source" --native-file "$build.ini" \
         -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled -Dview=disabled \
-        -Ddrive=disabled -Doptimization=0 \
+        -Ddrive=disabled -Doptimization=0 -Ddebug=false -Dc_args=-g1 -Dcpp_args=-g1 \
         >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
 fi
 ninja -C "$build" tools/virga/virga >"$work/build.log" 2>&1 || { tail -20 "$work/build.log"; exit 1; }

@@ -35,6 +35,7 @@ rain:
   max_drops: 4096
   occlusion_size: 64
 ground: {on: true, cells: 128, start_water_mm: 3}
+splash: {on: false} # checkpoint_scenes.sh has splashes
 glass:
   - width_m: 0.4
     height_m: 0.3
@@ -107,14 +108,15 @@ cp "$work/part/checkpoint.0004.virga" "$work/bad"
 python3 - "$work/bad/checkpoint.0004.virga" <<'PYTHON' 2>/dev/null || truncate -s -9 "$work/bad/checkpoint.0004.virga"
 import sys
 data = bytearray(open(sys.argv[1], "rb").read())
-data[len(data) // 2] ^= 4
+for i in range(len(data) // 2, len(data) // 2 + 64): # one bit may decompress to the same bytes
+    data[i] ^= 4
 open(sys.argv[1], "wb").write(data)
 PYTHON
 render 0 bad --frames 5-5
 said "is not used"
 cmp -s "$work/whole/frame.0005.exr" "$work/bad/frame.0005.exr" || fail "after a damaged checkpoint the frame differs"
 cp "$work/part/checkpoint.0002.virga" "$work/bad"
-render 0 bad --frames 3-3 --seed 3
+render 0 bad --frames 3-3 --seed 3 --set ground.on=false --set 'glass=[]'
 said "is not used: it is of another scene"
 
 render 2 wrong --simulate

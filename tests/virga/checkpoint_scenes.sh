@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Our scenes go on from checkpoints to the bytes of the whole render: 4 small frames of each, from each checkpoint.
+# Our scenes go on from checkpoints to the bytes of the whole render: 3 small frames of each, after the
+# pre-roll and after each frame.
 # Usage: checkpoint_scenes.sh VIRGA SOURCE [SCENE...]: all scenes of assets/scenes, or those of these names.
 virga=$1 source=$2
 shift 2
@@ -22,9 +23,9 @@ render() {
 }
 
 for name; do
-    render "$name" "$name.whole" --frames 1-4
-    render "$name" "$name.saved" --frames 1-4 --simulate --checkpoint-every 1
-    for from in preroll 0001 0002 0003; do
+    render "$name" "$name.whole" --frames 1-3
+    render "$name" "$name.saved" --frames 1-3 --simulate --checkpoint-every 1
+    for from in preroll 0001 0002; do
         [ -f "$work/$name.saved/checkpoint.$from.virga" ] || continue
         next=$([ $from = preroll ] && echo 1 || echo $((10#$from + 1)))
         mkdir "$work/part"

@@ -1,4 +1,5 @@
-# Sourced by farm.sh and farm_slurm.sh: a small scene, its whole render, and comparisons with it.
+# Sourced by farm.sh and farm_slurm.sh: a small scene of rain alone, as each process builds its pipelines; its whole
+# render, and comparisons with it.
 set -u
 virga=$1
 device=${VIRGA_TEST_DEVICE:-cpu}
@@ -21,7 +22,6 @@ meshes: [{file: box.obj}]
 camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
 frames: {fps: 24, first: 1, last: 12, size: [64, 36], preroll_s: 0.1, warm_start: false}
 rain: {rate_mm_h: 30, gust_m_s: 1, max_drops: 4096, occlusion_size: 64}
-ground: {on: true, cells: 128, start_water_mm: 3}
 YAML
 options=(--device "$device" --points --stats)
 

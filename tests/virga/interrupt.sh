@@ -28,7 +28,6 @@ meshes: [{file: box.obj}]
 camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
 frames: {fps: 24, first: 1, last: $frames, size: [64, 36], warm_start: false}
 rain: {rate_mm_h: 10, gust_m_s: 1, max_drops: 4096, occlusion_size: 64}
-ground: {on: true, cells: 128, start_water_mm: 3}
 YAML
 
 failures=0
@@ -107,8 +106,7 @@ whole() {
 # complete FOLDER: whole, and all of it.
 complete() {
     whole "$1"
-    [ "$(count "$1" 'frame.*.exr')" = "$frames" ] && [ "$(count "$1" 'rain.*.ply')" = "$frames" ] &&
-        [ "$(count "$1" 'splash.*.ply')" = "$frames" ] ||
+    [ "$(count "$1" 'frame.*.exr')" = "$frames" ] && [ "$(count "$1" 'rain.*.ply')" = "$frames" ] ||
         fail "$1: is not complete"
     python3 "$here/check_lines.py" "$work/once/stats.jsonl" "$work/$1/stats.jsonl" >"$work/err" 2>&1 ||
         fail "$1: stats.jsonl"
@@ -139,8 +137,7 @@ until_there test -e "$work/interrupted/frame.0002.exr"
 stop INT 130
 done=$(count interrupted 'frame.*.exr')
 [ "$done" -ge 2 ] && [ "$done" -lt "$frames" ] || fail "$done frames before the interruption"
-[ "$(count interrupted 'rain.*.ply')" = "$done" ] && [ "$(count interrupted 'splash.*.ply')" = "$done" ] &&
-    [ "$(count interrupted 'preview.*.png')" = "$done" ] ||
+[ "$(count interrupted 'rain.*.ply')" = "$done" ] && [ "$(count interrupted 'preview.*.png')" = "$done" ] ||
     fail "a frame was left half-way"
 [ "$(wc -l <"$work/interrupted/stats.jsonl")" = "$done" ] || fail "not one line of statistics a frame"
 said 2 "interrupted: $done frames are in .*; --resume goes on with frame $((done + 1))$"
@@ -164,7 +161,7 @@ complete killed
 
 begin "what a kill leaves is cleaned up"
 broken=$work/broken
-rm "$broken/frame.0004.exr" "$broken/rain.0007.ply" "$broken/preview.0008.png" "$broken/splash.0011.ply"
+rm "$broken/frame.0004.exr" "$broken/rain.0007.ply" "$broken/preview.0008.png" "$broken/rain.0011.ply"
 : >"$broken/frame.0005.exr"
 head -c 300 "$work/once/frame.0006.exr" >"$broken/frame.0006.exr"
 sed -i 9d "$broken/stats.jsonl"
@@ -194,7 +191,7 @@ find "$work/once" -type f -exec md5sum {} + | sort >"$work/before"
 refused 'seed 1, expected 4294967295; ' --seed 4294967295
 refused 'size 64x36, expected 32x32; ' --size 32x32
 refused 'samples 1, expected 2; ' --samples 2
-refused 'layers beauty,depth,haze,rain,splash,velocity,normal,id,wetness,waterdepth, expected rain; ' --layers rain
+refused 'layers beauty,depth,haze,rain,velocity,normal,id, expected rain; ' --layers rain
 refused 'water velocity \(none\), expected 50; ' --water-velocity 50
 refused 'scene hash [0-9a-f]{16}, expected [0-9a-f]{16}; ' --set rain.rate_mm_h=11
 find "$work/once" -type f -exec md5sum {} + | sort >"$work/after"

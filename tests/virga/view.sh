@@ -138,12 +138,12 @@ oiiotool --info -v "$work/still.exr" >"$work/header" && grep -q 'rain.R' "$work/
 
 # ---- pools that the device has no room for: the window stays, and the rain starts as before
 
-view pane pools <<'END' || { cat "$work/pools.err"; fail "pools"; }
+view rain pools <<'END' || { cat "$work/pools.err"; fail "pools"; }
 wait 1
 set rain.max_drops 4194304
 restart
 wait 1
-set glass.0.max_drops 2048
+set rain.max_drops 4096
 restart
 wait 1
 print
