@@ -24,7 +24,7 @@ has() { # TEXT FILE
     grep -qF -- "$1" "$2" || { cat "$2"; fail "no '$1'"; }
 }
 
-for need in xvfb-run oiiotool; do
+for need in xvfb-run oiiotool idiff; do
     command -v "$need" >/dev/null || { echo "skipped: $need is not installed"; exit 77; }
 done
 "$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
@@ -154,6 +154,22 @@ if "$virga" info --device "$device" | grep -q '^\*.*llvmpipe'; then # storage bu
     [ "$(grep -c 'started as before' "$work/pools.err")" = 1 ] || fail "the second start had the first one's pools"
 fi
 has '40 mm/h' "$work/pools.out"
+
+# ---- a lens that is opened while the window is there
+
+view rain opened <<'END' || { cat "$work/opened.err"; fail "opened"; }
+downscale 4
+step 1
+shot sharp.png
+set camera.aperture_f 0.05
+shot soft.png
+wait 1
+set camera.aperture_f 0
+shot closed.png
+quit
+END
+idiff -q -fail 0 "$work/sharp.png" "$work/closed.png" >"$work/diff" 2>&1 || fail "a closed lens blurs"
+idiff -q -fail 0 "$work/sharp.png" "$work/soft.png" >"$work/diff" 2>&1 && fail "an opened lens blurs nothing"
 
 # ---- the tuned scene is a scene
 

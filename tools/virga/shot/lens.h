@@ -4,8 +4,8 @@
 
 #include "effect.h"
 
-/* Creates s->lens for the size of the picture, where the scene's camera needs one or may get one. After the target and
- * the effects. */
+/* Creates s->lens for the size of the picture, where the scene's camera has an aperture that blurs by depth. After the
+ * target and the effects. */
 bool shot_open_lens(shot *s, char *error, size_t error_size);
 void shot_close_lens(shot *s);
 

@@ -30,11 +30,19 @@ bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *ca
     return true;
 }
 
+/* The user may open the aperture at any time. A lens has more pipelines than the rain, so it is not built before. */
+static bool open_lens(shot *s, char *error, size_t error_size)
+{
+    return s->lens || !shot_gathers(s) ||
+           (host_wait(&s->device, error, error_size) && shot_open_lens(s, error, error_size));
+}
+
 bool shot_live_draw(shot *s, uint32_t samples, host_camera *camera, char *error, size_t error_size)
 {
     const uint32_t before = s->options.samples;
     s->options.samples = samples;
-    const bool drawn = shot_draw_samples(s, s->camera_time_s, camera, error, error_size);
+    const bool drawn =
+        open_lens(s, error, error_size) && shot_draw_samples(s, s->camera_time_s, camera, error, error_size);
     s->options.samples = before;
     return drawn;
 }
@@ -54,7 +62,7 @@ bool shot_live_restart(shot *s, char *error, size_t error_size)
 bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, size_t error_size)
 {
     if (width == s->options.width && height == s->options.height)
-        return true;
+        return open_lens(s, error, error_size);
     if (!host_wait(&s->device, error, error_size))
         return false;
     host_accumulator_destroy(&s->sums);
