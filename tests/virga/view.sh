@@ -130,6 +130,26 @@ bare.png 120x60+200+150
 still.png 120x60+40+50
 flown.png 120x60+40+50
 END
+# The focus goes to what is picked: the floor below the middle is 1.5 m lower, and the view depth there
+# 1.5 / (sin(7.125) + 0.5 tan(20) cos(7.125)) = 4.92 m. Above the horizon it is infinity, the default,
+# which is not written.
+sed 's/^camera:.*/camera: {fov_deg: 40, aperture_f: 2.8, keys: [{position_m: [0, 1.5, 4], look_at_m: [0, 1, 0]}]}/
+    /{time_s: 2/d' "$work/rain.yaml" >"$work/picked.yaml"
+view picked pick <<'END' || { cat "$work/pick.err"; fail "pick"; }
+downscale 2
+wait 1
+focus 0.5 0.75
+wait 2
+save floor.yaml
+focus 0.5 0.02
+wait 2
+save sky.yaml
+quit
+END
+focus_of() { grep -o 'focus_m: [0-9.e+]*' "$1" | cut -d' ' -f2; }
+awk -v m="$(focus_of "$work/floor.yaml")" 'BEGIN { exit !(m > 4.82 && m < 5) }' ||
+    fail "the focus is at $(focus_of "$work/floor.yaml") m, not on the floor"
+[ -z "$(focus_of "$work/sky.yaml")" ] || fail "the focus is at $(focus_of "$work/sky.yaml") m, not at infinity"
 # The panel: on the right, with buttons and text on its dark ground.
 [ "$(number StdDev "$work/first.png" 420x480+475+10)" -gt 12 ] || fail "the window has no panel"
 oiiotool --info "$work/bare.png" | grep -q '700 x *400' || fail "the window was not resized"
