@@ -277,7 +277,9 @@ VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t co
  *
  * A host that does not call it still gets a complete picture again: each call of a frame leaves a mark when the device
  * executes it. If a mark is missing when the frame is reported as completed, all is recorded again from then on. Until
- * then, up to frames_in_flight frames may show less than they should. This works for a part of a frame too.
+ * then, up to frames_in_flight frames may show less than they should. This works for a part of a frame too: for a
+ * command buffer that is thrown away together with those that need it. A prepare needs the step of its effect in the
+ * frame, and a draw its prepare.
  *
  * A dropped frame counts as completed once all frames before it have: report it so. `frame_index` must have begun and
  * not be completed (VIRGA_ERROR_INVALID). Costs microseconds. */
