@@ -457,6 +457,7 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
     if (result)
         return result;
     virga_timers_reset(context, cmd);
+    glass_first_contents(glass, cmd);
     glass_view_block block;
     uint32_t index;
     fill_view(glass, view, pose, time_s, &block);

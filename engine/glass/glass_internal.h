@@ -114,6 +114,8 @@ VkDescriptorSet glass_write_set(virga_glass *glass);
 virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);
 
 /* ---- glass_step.c */
+/* True if it recorded. A prepare calls it too: its step may be in a lost frame. */
+bool glass_first_contents(virga_glass *glass, VkCommandBuffer cmd);
 virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9]); /* all zero: none */
 /* The grid of particles: its cells, and their side. */
 void glass_fill_grid(const virga_glass *glass, virga_glass_tick_gpu *tick);

@@ -481,6 +481,15 @@ static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
     virga_effect_uploaded(&glass->base, &glass->nodes_upload);
 }
 
+bool glass_first_contents(virga_glass *glass, VkCommandBuffer cmd)
+{
+    if (!virga_effect_first_contents(&glass->base, cmd))
+        return false;
+    glass_picture_forget(glass); /* the images may have lost their contents */
+    upload_shape(glass, cmd);
+    return true;
+}
+
 static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
 {
     if (!glass)
@@ -560,10 +569,9 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     glass->impacts_offset = info->impacts_offset;
     glass->step_set = glass_write_set(glass);
     glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
-    if (virga_effect_first_contents(&glass->base, cmd))
-        glass_picture_forget(glass); /* the images may have lost their contents */
+    if (!glass_first_contents(glass, cmd))
+        upload_shape(glass, cmd);
     virga_effect_reads(&glass->base, cmd, info->impacts);
-    upload_shape(glass, cmd);
     if (info->ticks)
         record_ticks(glass, cmd, info);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),

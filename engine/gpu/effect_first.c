@@ -122,8 +122,9 @@ static void wait_for_earlier_frames(virga_context *context, VkCommandBuffer cmd)
 static bool record_first_contents(virga_effect *effect, VkCommandBuffer cmd)
 {
     virga_context *context = effect->context;
+    const bool lost = effect->contents == VIRGA_NOT_RECORDED || effect->images == VIRGA_NOT_RECORDED;
     if ((effect->contents == VIRGA_EXECUTED && effect->images == VIRGA_EXECUTED) ||
-        effect->contents_frame == context->frame_index)
+        (effect->contents_frame == context->frame_index && !lost))
         return false;
     if (effect->contents_frame)
         wait_for_earlier_frames(context, cmd);

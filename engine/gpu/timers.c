@@ -42,14 +42,17 @@ static virga_timer_slot *slot_of_frame(virga_context *context)
 }
 
 /* A pool can only be reset outside rendering, so every call that records outside rendering calls this. The first call
- * in a frame resets the pool; a frame without such a call has no timings. */
+ * in a frame resets the pool; a frame without such a call has no timings. Another command buffer of the frame resets
+ * what is not written yet, as the first one may be thrown away. */
 void virga_timers_reset(virga_context *context, VkCommandBuffer cmd)
 {
     virga_timer_slot *slot = slot_of_frame(context);
-    if (!context->timers.enabled || slot->reset)
+    const uint32_t first = slot->reset ? slot->count : 0;
+    if (!context->timers.enabled || (slot->reset && slot->reset_in == cmd) || first == VIRGA_MAX_QUERIES)
         return;
-    context->vk.CmdResetQueryPool(cmd, slot->pool, 0, VIRGA_MAX_QUERIES);
+    context->vk.CmdResetQueryPool(cmd, slot->pool, first, VIRGA_MAX_QUERIES - first);
     slot->reset = true;
+    slot->reset_in = cmd;
     slot->frame_index = context->frame_index;
 }
 

@@ -17,6 +17,7 @@ typedef struct virga_timer_slot {
     uint32_t count;                       /* queries written */
     uint8_t names[VIRGA_MAX_QUERIES / 2]; /* index into pass_times, for each pair of queries */
     bool reset;                           /* the pool was reset in this frame */
+    VkCommandBuffer reset_in;             /* ... last in this command buffer */
 } virga_timer_slot;
 
 typedef struct virga_timers {

@@ -112,6 +112,7 @@ virga_result splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const vir
     if (result)
         return result;
     const VkDescriptorSet set = splash_write_set(splash, index, splash->current, view);
+    splash_first_contents(splash, cmd, set);
     record_prepare(splash, cmd, set, choose_form(splash));
     virga_effect_set_view(&splash->base, set, splash->view_offset, view, prepared);
     splash->prepared[splash->base.slot] =

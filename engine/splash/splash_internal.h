@@ -161,6 +161,9 @@ virga_result splash_spray_check(const virga_splash *splash, const virga_splash_s
 void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
 
 /* ---- splash_step.c */
+/* With the set of a step or a view. A prepare calls it too: its step may be in a lost frame. */
+void splash_first_contents(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set);
+
 void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
                       const double shift[3]);
 void splash_lost(void *splash, uint64_t frame, uint32_t did);

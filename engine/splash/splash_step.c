@@ -143,11 +143,13 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
 
 /* ---- a step */
 
-static void write_indices(virga_splash *splash, VkCommandBuffer cmd)
+void splash_first_contents(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set)
 {
     virga_context *context = splash->base.context;
     const uint32_t sprites = splash_max_sprites(&splash->def);
-    splash_bind(splash, cmd, splash->step_sets[0]);
+    if (!virga_effect_first_contents(&splash->base, cmd))
+        return;
+    splash_bind(splash, cmd, set);
     context->vk.CmdPushConstants(cmd, splash->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof sprites, &sprites);
     virga_dispatch(context, cmd, splash->indices, 1024);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
@@ -195,8 +197,7 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
     splash->info = NULL;
     splash->spawns = VK_NULL_HANDLE; /* the host owns it and may destroy it */
-    if (virga_effect_first_contents(&splash->base, cmd))
-        write_indices(splash, cmd);
+    splash_first_contents(splash, cmd, splash->step_sets[0]);
     virga_effect_reads(&splash->base, cmd, info->spawns);
     virga_effect_reads(&splash->base, cmd, info->leavers);
     virga_effect_reads(&splash->base, cmd, info->leaver_table);

@@ -72,8 +72,9 @@ struct calls_device;
 typedef struct calls {
     uint64_t random;
     const struct calls_device *device;
-    bool lies;    /* frames are said to be complete that are not */
-    bool careful; /* mistakes are rare */
+    bool lies;        /* frames are said to be complete that are not */
+    bool careful;     /* mistakes are rare */
+    bool thrown_away; /* (software Vulkan) the command buffer before this one was not submitted */
     virga_context *contexts[CALLS_CONTEXTS];
     bool lost[CALLS_CONTEXTS + 1];
     calls_handle handles[CALLS_TYPES][CALLS_SLOTS];

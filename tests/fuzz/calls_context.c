@@ -207,8 +207,13 @@ void call_virga_frame_begin(calls *c)
     } else if (completed == f->begun || completed) {
         c->device->wait(c, index);
     }
-    if (CALLS_TRY(c, index, CALLS_PLAIN, virga_frame_begin, context, frame, completed) < 0)
+    if (CALLS_TRY(c, index, CALLS_PLAIN, virga_frame_begin, context, frame, completed) < 0) {
+        /* The frame goes on in another command buffer. What is thrown away of it must be told: a prepare needs the step
+         * before it. */
+        if (c->thrown_away && f->begun > f->completed)
+            virga_frame_dropped(context, f->begun);
         return;
+    }
     f->begun = frame;
     f->completed = completed;
 }

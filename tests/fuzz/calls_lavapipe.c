@@ -104,6 +104,7 @@ static void render(calls *c, uint32_t index, bool inside)
 static void submit(calls *c, uint32_t index)
 {
     host_device *device = &gpu.device;
+    c->thrown_away = lost_frame;
     if (is_inside_pass)
         render(c, index, false);
     if (!c->frames[index].open || lost_frame) {

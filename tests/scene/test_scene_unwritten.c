@@ -338,12 +338,48 @@ static void lists_of_steps_in_frames_that_are_lost_untold_are_empty(void **state
     run(*state, LOST_UNTOLD);
 }
 
+/* Prepares of effects whose only step is lost: there is nothing to see. */
+static void run_prepares(gpu_fixture *f, bool tell)
+{
+    static host h;
+    const gpu_picture size = {.images = {.width = 32, .height = 32}};
+    const virga_glass_pose pose = {.position_m = {-0.1, 0.95, -0.2}};
+    virga_view view = gpu_view(&size);
+    virga_splash_stats splash;
+    open_host(&h, f);
+    view.position_m[1] = view.open_position_m[1] = 1;
+    const lists from = no_entries(&h);
+    h.cmd = gpu_begin_frame(f, h.context);
+    step_all(&h, &h.writers, &from);
+    throw_away(&h, tell);
+    gpu_submit(f);
+    h.cmd = gpu_begin_frame(f, h.context);
+    const virga_result glass = virga_glass_prepare(h.writers.glass, h.cmd, &view, &pose, 0);
+    assert_int_equal(virga_splash_prepare(h.writers.splash, h.cmd, &view, 0), VIRGA_OK);
+    assert_int_equal(virga_water_prepare(h.writers.water, h.cmd, &view), VIRGA_NOT_READY);
+    assert_int_equal(glass, tell ? VIRGA_NOT_READY : VIRGA_OK);
+    gpu_submit(f);
+    gpu_wait(f);
+    assert_int_equal(virga_frame_completed(h.context, f->gpu.device.completed), VIRGA_OK);
+    virga_splash_stats_get(h.writers.splash, &splash);
+    assert_int_equal(splash.sprites, 0);
+    assert_int_equal(f->errors, 0);
+    close_host(&h);
+}
+
+static void prepares_after_a_lost_step_see_nothing(void **state)
+{
+    run_prepares(*state, false);
+    run_prepares(*state, true);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         gpu_kept_test(lists_of_effects_that_never_stepped_are_empty),
         gpu_kept_test(lists_of_steps_in_dropped_frames_are_empty),
         gpu_kept_test(lists_of_steps_in_frames_that_are_lost_untold_are_empty),
+        gpu_kept_test(prepares_after_a_lost_step_see_nothing),
     };
     return effect_fixture_close(cmocka_run_group_tests_name("lists that nobody wrote", tests, NULL, NULL));
 }

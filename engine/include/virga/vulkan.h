@@ -275,11 +275,9 @@ VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t co
  * contents. The time that was stepped in the frame is skipped: no drop lands in it. Call it before the next
  * virga_frame_begin. Then the next frame already contains what is missing.
  *
- * A host that does not call it still gets a complete picture again: each call of a frame leaves a mark when the device
- * executes it. If a mark is missing when the frame is reported as completed, all is recorded again from then on. Until
- * then, up to frames_in_flight frames may show less than they should. This works for a part of a frame too: for a
- * command buffer that is thrown away together with those that need it. A prepare needs the step of its effect in the
- * frame, and a draw its prepare.
+ * A host that does not call it gets a complete picture again, too: each call leaves a mark when the device executes it.
+ * If one is missing when the frame is completed, all is recorded again. Until then, frames in flight may show less. So
+ * it is with a part of a frame that is lost with all that needs it: prepares need their step, draws their prepare.
  *
  * A dropped frame counts as completed once all frames before it have: report it so. `frame_index` must have begun and
  * not be completed (VIRGA_ERROR_INVALID). Costs microseconds. */
