@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#define WAVE_VALUES ((size_t)VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII)
+#define WAVE_VALUES ((size_t)VIRGA_RING_LAYERS * VIRGA_RING_TIMES * VIRGA_RING_RADII)
 
 void ground_ripples_retire(virga_context *context, ground_ripples *ripples)
 {
@@ -35,7 +35,8 @@ static uint16_t wave_entry(const float *slopes, size_t i)
 {
     const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
     const size_t middle = radius > 0 ? 0 : 1;
-    const double reach = ring_reach((double)time * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1));
+    const int layer = (int)(i / ((size_t)VIRGA_RING_RADII * VIRGA_RING_TIMES));
+    const double reach = ring_reach(layer, (double)time * ring_life(layer) / (VIRGA_RING_TIMES - 1));
     const double share = (double)(radius + middle) / (VIRGA_RING_RADII - 1);
     const double last = fmin(fmax((share - 0.9) / 0.1, 0), 1), ends = 1 - last * last * (3 - 2 * last);
     return ring_half((float)((double)slopes[i + middle] * ends / (100 * share * reach)));
@@ -64,7 +65,7 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
         goto error;
     }
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
-                           VIRGA_RING_DEPTHS, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                           VIRGA_RING_LAYERS, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.waves", &ripples->waves));
     TRY(virga_buffer_create(context, WAVE_VALUES * 4 * sizeof(uint16_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                             VIRGA_HEAP_UPLOAD, "ground.waves_upload", &ripples->upload));
@@ -115,7 +116,7 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
                                       VK_ACCESS_TRANSFER_WRITE_BIT};
     const virga_image_state ready = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                                      VK_ACCESS_SHADER_READ_BIT};
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, VIRGA_RING_DEPTHS},
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, VIRGA_RING_LAYERS},
                                     .imageExtent = {VIRGA_RING_RADII, VIRGA_RING_TIMES, 1}};
     virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, before, filled);
     context->vk.CmdCopyBufferToImage(cmd, ripples->upload->buffer, ripples->waves->image, filled.layout, 1, &copy);

@@ -7,10 +7,10 @@
 #define GRAVITY   9.80665
 #define TENSION   (0.0728 / 998.2) /* sigma / rho */
 #define VISCOSITY 1.004e-6
-#define NUMBERS   160    /* number of waves: k from 0 to K_MAX */
-#define K_MAX     1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
-#define J1_STEPS  64     /* entries of J1's table per unit: linear interpolation is right to 2e-5 */
-#define J1_SIZE   25100  /* beyond K_MAX times the largest radius */
+#define NUMBERS   160   /* number of waves: k from 0 to KA_MAX / a */
+#define KA_MAX    6.4   /* k a: exp(-a^2 k^2 / 4) is 4e-5 there */
+#define J1_STEPS  64    /* entries of J1's table per unit: linear interpolation is right to 2e-5 */
+#define J1_SIZE   25100 /* beyond the largest k times the largest radius */
 
 double ring_omega(double k, double h)
 {
@@ -28,39 +28,53 @@ double ring_gamma(double k, double h)
 double ring_depth(int layer)
 {
     static const double depths_m[VIRGA_RING_DEPTHS] = {VIRGA_RING_DEPTH_LIST};
-    return depths_m[layer];
+    return depths_m[layer % VIRGA_RING_DEPTHS];
 }
 
-static double spectrum(double k)
+double ring_width(int layer)
 {
-    const double a = RING_CRATER_M;
+    static const double widths_m[VIRGA_RING_WIDTHS] = {VIRGA_RING_WIDTH_LIST};
+    return widths_m[layer / VIRGA_RING_DEPTHS];
+}
+
+double ring_life(int layer)
+{
+    static const double lives_s[VIRGA_RING_WIDTHS] = {VIRGA_RING_LIFE_LIST};
+    return lives_s[layer / VIRGA_RING_DEPTHS];
+}
+
+static double spectrum(double a, double k)
+{
     return a * a * a * a * k * k / 8 * exp(-a * a * k * k / 4);
 }
 
-int ring_layer(double h)
+int ring_layer(int width, double h)
 {
-    int layer = 0;
-    while (layer + 1 < VIRGA_RING_DEPTHS && h * h > ring_depth(layer) * ring_depth(layer + 1))
-        layer++;
-    return layer;
+    int depth = 0;
+    while (depth + 1 < VIRGA_RING_DEPTHS && h * h > ring_depth(depth) * ring_depth(depth + 1))
+        depth++;
+    return width * VIRGA_RING_DEPTHS + depth;
 }
 
-double ring_reach(double t)
+double ring_reach(int layer, double t)
 {
-    return VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * t;
+    static const double starts_m[VIRGA_RING_WIDTHS] = {VIRGA_RING_START_LIST};
+    static const double fronts_m_s[VIRGA_RING_WIDTHS] = {VIRGA_RING_FRONT_LIST};
+    return starts_m[layer / VIRGA_RING_DEPTHS] + fronts_m_s[layer / VIRGA_RING_DEPTHS] * t;
 }
 
-/* Of each wave, at each depth: initial amplitude, frequency and damping. */
+/* Of each wave of a width of craters, at each depth: initial amplitude, frequency and damping. */
 typedef struct waves {
+    double step; /* rad/m, between the numbers of two waves */
     double start[NUMBERS], omega[NUMBERS][VIRGA_RING_DEPTHS], gamma[NUMBERS][VIRGA_RING_DEPTHS];
 } waves;
 
-static void describe_waves(double blur_m, waves *w)
+static void describe_waves(double a, double blur_m, waves *w)
 {
-    static const double step = K_MAX / NUMBERS;
+    w->step = KA_MAX / a / NUMBERS;
     for (int i = 0; i < NUMBERS; i++) {
-        const double k = (i + 0.5) * step;
-        w->start[i] = -spectrum(k) * exp(-k * k * blur_m * blur_m / 2) * k * k * step;
+        const double k = (i + 0.5) * w->step;
+        w->start[i] = -spectrum(a, k) * exp(-k * k * blur_m * blur_m / 2) * k * k * w->step;
         for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
             w->omega[i][layer] = ring_omega(k, ring_depth(layer));
             w->gamma[i][layer] = ring_gamma(k, ring_depth(layer));
@@ -76,13 +90,12 @@ static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DE
             weights[i][layer] = (float)(w->start[i] * cos(w->omega[i][layer] * t) * exp(-w->gamma[i][layer] * t));
 }
 
-static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double r,
+static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double step, double r,
                       float sums[VIRGA_RING_DEPTHS])
 {
-    static const double step = K_MAX / NUMBERS * J1_STEPS;
     memset(sums, 0, VIRGA_RING_DEPTHS * sizeof sums[0]);
     for (int i = 0; i < NUMBERS; i++) {
-        const double x = (i + 0.5) * step * r;
+        const double x = (i + 0.5) * step * r * J1_STEPS;
         const int left = (int)x;
         const float value = bessel[left] + (float)(x - left) * (bessel[left + 1] - bessel[left]);
         for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
@@ -90,22 +103,30 @@ static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *be
     }
 }
 
-void ring_table_fill(float *slope, double blur_m)
+/* All depths of a width, from layer `first` on. */
+static void fill_width(int first, double blur_m, const float *bessel, float *slope)
 {
-    float bessel[J1_SIZE], weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
+    float weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
     waves w;
-    describe_waves(blur_m, &w);
-    for (int i = 0; i < J1_SIZE; i++)
-        bessel[i] = (float)j1((double)i / J1_STEPS);
+    describe_waves(ring_width(first), blur_m, &w);
     for (int j = 0; j < VIRGA_RING_TIMES; j++) {
-        const double t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1);
+        const double t = j * ring_life(first) / (VIRGA_RING_TIMES - 1);
         weigh(&w, t, weights);
         for (int r = 0; r < VIRGA_RING_RADII; r++) {
-            sum_waves(weights, bessel, r * ring_reach(t) / (VIRGA_RING_RADII - 1), sums);
-            for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
-                slope[(layer * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[layer];
+            sum_waves(weights, bessel, w.step, r * ring_reach(first, t) / (VIRGA_RING_RADII - 1), sums);
+            for (int depth = 0; depth < VIRGA_RING_DEPTHS; depth++)
+                slope[((first + depth) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[depth];
         }
     }
+}
+
+void ring_table_fill(float *slope, double blur_m)
+{
+    float bessel[J1_SIZE];
+    for (int i = 0; i < J1_SIZE; i++)
+        bessel[i] = (float)j1((double)i / J1_STEPS);
+    for (int first = 0; first < VIRGA_RING_LAYERS; first += VIRGA_RING_DEPTHS)
+        fill_width(first, blur_m, bessel, slope);
 }
 
 uint16_t ring_half(float number)
@@ -122,26 +143,40 @@ uint16_t ring_half(float number)
     return (uint16_t)(sign | (whole + (exponent + 13) * 1024));
 }
 
-double ring_table_slope(const float *slope, double h, double r, double t)
+double ring_table_slope(const float *slope, int layer, double r, double t)
 {
-    double x = r / ring_reach(t) * (VIRGA_RING_RADII - 1), y = t / VIRGA_RING_TIME_S * (VIRGA_RING_TIMES - 1);
+    double x = r / ring_reach(layer, t) * (VIRGA_RING_RADII - 1), y = t / ring_life(layer) * (VIRGA_RING_TIMES - 1);
     if (!(x >= 0 && x < VIRGA_RING_RADII - 1 && y >= 0 && y < VIRGA_RING_TIMES - 1))
         return 0;
     const int i = (int)x, j = (int)y;
     x -= i;
     y -= j;
-    const float *at = slope + (ring_layer(h) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + i,
-                *next = at + VIRGA_RING_RADII;
+    const float *at = slope + (layer * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + i, *next = at + VIRGA_RING_RADII;
     return (1 - y) * ((1 - x) * at[0] + x * at[1]) + y * ((1 - x) * next[0] + x * next[1]);
 }
 
-double ring_calm_time(double h)
+/* The integral over a life of fade^2 exp(-2 gamma t) / 2. */
+static double time_of_wave(double gamma, double life)
 {
+    enum { STEPS = 100 };
+    double sum = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double share = (i + 0.5) / STEPS;
+        const double x = fmin(fmax((share - VIRGA_RING_FADES) / (1 - VIRGA_RING_FADES), 0), 1);
+        const double fade = 1 - x * x * (3 - 2 * x);
+        sum += fade * fade * exp(-2 * gamma * share * life) / 2;
+    }
+    return sum * life / STEPS;
+}
+
+double ring_calm_time(int width, double h)
+{
+    const double a = ring_width(width * VIRGA_RING_DEPTHS), life = ring_life(width * VIRGA_RING_DEPTHS);
     double before = 0, held = 0;
     for (int i = 0; i < NUMBERS; i++) {
-        const double k = (i + 0.5) * (K_MAX / NUMBERS), start = spectrum(k) * spectrum(k) * k * k * k;
+        const double k = (i + 0.5) * (KA_MAX / a / NUMBERS), start = spectrum(a, k) * spectrum(a, k) * k * k * k;
         before += start;
-        held += start / (4 * ring_gamma(k, h));
+        held += start * time_of_wave(ring_gamma(k, h), life);
     }
     return held / before;
 }

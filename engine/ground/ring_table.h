@@ -21,15 +21,14 @@
  * The second term is the dissipation per area of an oscillating layer, rho U^2 sqrt(nu w / 8) with U = w A / sinh(k h),
  * over twice the wave's energy rho w^2 A^2 / (2 k tanh(k h)) (Landau and Lifshitz, par. 25).
  *
- * The crater of the table is 1 m deep: multiply by the depth of the real crater. */
+ * The crater of the table is 1 m deep: multiply by the depth of the real crater. The table has a few widths a of
+ * craters, see VIRGA_RING_WIDTH_LIST; shaders/ground/rings.glsl says which drop makes which. */
 #ifndef VIRGA_GROUND_RING_TABLE_H
 #define VIRGA_GROUND_RING_TABLE_H
 
 #include <stdint.h>
 
 #include <virga/shared/ground_limits.h>
-
-#define RING_CRATER_M 0.004 /* a: the crater of a drop of 2 to 3 mm in a puddle (2 to 4 times the drop's radius) */
 
 /* Angular frequency (rad/s) of waves of number k (rad/m) on water of depth h (m). */
 double ring_omega(double k, double h);
@@ -40,20 +39,25 @@ double ring_gamma(double k, double h);
 /* Depth of water (m) of layer `layer` of the table, see VIRGA_RING_DEPTH_LIST. */
 double ring_depth(int layer);
 
-/* The layer of the table for water of depth h (m, any): the one whose depth is nearest by ratio. Two layers are never
+/* Width a (m) of the crater of layer `layer`, and the lifetime (s) of its rings. */
+double ring_width(int layer);
+double ring_life(int layer);
+
+/* The layer of the table for craters of index `width` on water of depth h (m, any): the one whose depth is nearest by
+ * ratio. Two layers are never
  * blended, because their waves are out of phase and would cancel. The error is in the phase speed: 12 % at 1.4 mm of
  * water (8.9 mm waves), less at other depths. */
-int ring_layer(double h);
+int ring_layer(int width, double h);
 
-/* Largest radius (m) of the table at time t (s). Waves beyond it have less than 0.01 % of the energy. */
-double ring_reach(double t);
+/* Largest radius (m) of layer `layer` at time t (s). Waves beyond it have less than 0.01 % of the energy. */
+double ring_reach(int layer, double t);
 
-/* Fills `slope` [VIRGA_RING_DEPTHS][VIRGA_RING_TIMES][VIRGA_RING_RADII] (m per m of crater): at radius
- * i * ring_reach(t) / (VIRGA_RING_RADII - 1) and time t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1).
+/* Fills `slope` [VIRGA_RING_LAYERS][VIRGA_RING_TIMES][VIRGA_RING_RADII] (m per m of crater): at radius
+ * i * ring_reach(layer, t) / (VIRGA_RING_RADII - 1) and time t = j * ring_life(layer) / (VIRGA_RING_TIMES - 1).
  *
  * Radii that grow with the front put the entries where the waves are. The entries move with the wave groups, so an
  * entry changes little from one time to the next. With linear interpolation in radius and time the error is at most 6 %
- * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.03 s and uses 140 KiB of
+ * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.06 s and uses 140 KiB of
  * stack.
  *
  * `blur_m` is the standard deviation of a Gaussian that smooths the surface: use half a texel. Otherwise waves that are
@@ -65,20 +69,21 @@ void ring_table_fill(float *slope, double blur_m);
  * largest slope. Beyond the largest half float (65504): infinite. */
 uint16_t ring_half(float number);
 
-/* The value that shaders/ground/ring.frag reads, before the start and end of a ring's life are faded: layer
- * ring_layer(h), linear in r / ring_reach(t) and in t. 0 outside of the table. h, r in m, t in s, none negative. */
-double ring_table_slope(const float *slope, double h, double r, double t);
+/* The value that shaders/ground/ring.frag reads, before the start and end of a ring's life are faded: linear in
+ * r / ring_reach(layer, t) and in t. 0 outside of the table. r in m, t in s, none negative. */
+double ring_table_slope(const float *slope, int layer, double r, double t);
 
 /* Multiply the variance of the slope at t = 0 by this time (s) to get the variance that a steady rain of one such
- * crater per second and square metre maintains:
+ * crater per second and square metre maintains. With fade(t) = 1 - smoothstep(VIRGA_RING_FADES, 1, t / life):
  *
- *     int_0^oo int slope^2 dA dt / int slope0^2 dA
+ *     int_0^life fade^2 int slope^2 dA dt / int slope0^2 dA
  *
  * From Parseval's theorem and with the mean of cos^2, as gamma is much smaller than w, this is
  *
- *     int k^7 exp(-a^2 k^2 / 2) / (4 gamma) dk / int k^7 exp(-a^2 k^2 / 2) dk
+ *     int k^7 exp(-a^2 k^2 / 2) int_0^life fade^2 exp(-2 gamma t) / 2 dt dk / int k^7 exp(-a^2 k^2 / 2) dk
  *
- * 0.33 s on deep water, 0.22 on 3 mm, 0.065 on 1 mm. 0.333 (1 - exp(-(h / 2.9 mm)^1.5)) is within 7 %. */
-double ring_calm_time(double h);
+ * Within 3 %, with h in mm: 0.1415 (1 - exp(-(h / 1.55)^1.3)) for a = 4 mm, 0.26 (1 - exp(-(h / 2.05)^0.85)) for 10
+ * mm. `width` is the index of a. */
+double ring_calm_time(int width, double h);
 
 #endif

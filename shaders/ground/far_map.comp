@@ -16,11 +16,16 @@ layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 23) readonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };
 layout(set = 0, binding = 26, rgba16f) uniform writeonly image2DArray far_map;
 
-// Variance of slope in steady rain.
+// Variance of slope in steady rain. Waves come from the energy of drops: their mean diameter by volume times the square
+// of their speed is 1.7 times that by surface where diameters are distributed exponentially. Fewer of them are as much
+// water.
 float stirred(float water_m, float open_share)
 {
-    const float drops = tick.rain_per_m2_s * tick.cell_m * tick.cell_m * open_share; // drops per cell and second
-    const float cached = drops * crater_variance(crater_depth(tick.rain_drop_m, water_m)) * calm_time(water_m);
+    const float wider = 1.7, diameter_m = wider * tick.rain_drop_m;
+    const float drops = tick.rain_per_m2_s / (wider * wider * wider) * tick.cell_m * tick.cell_m * open_share;
+    const float speed = max(9.65 - 10.3 * exp(-600.0 * diameter_m), 0.0); // Atlas et al. 1973
+    const Crater crater = crater_of(diameter_m, speed, water_m);
+    const float cached = drops * crater_variance(crater, water_m) * cell_calm_time(water_m);
     return min(cached, 0.1);
 }
 

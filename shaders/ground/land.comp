@@ -102,7 +102,8 @@ uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, ui
     if (piece.cell_index == NO_CELL)
         return 0u;
     const float water_m = float(cell_of(piece.cell_index).free_nl) * tick.m_per_nl;
-    const float stir = drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6;
+    const float speed = length(vec3(impact.velocity[0], impact.velocity[1], impact.velocity[2]));
+    const float stir = drops * crater_variance(crater_of(impact.diameter_m, speed, water_m), water_m) * 1e6;
     spread_water(piece, spread_of(drops), water_nl, water_m >= MIN_WATER_M ? uint(stir) : 0u);
     leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
     return water_nl;

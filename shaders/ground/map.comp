@@ -26,7 +26,7 @@ uvec2 spots_left(uint cell_index, float held_share)
 uint calm_variance(uint cell_index, float water_m)
 {
     const float step_s = tick.tick > 0u ? float(tick.tick_in_step + 1u) * tick.tick_s : 0.0; // 0: there was no tick
-    return uint(float(stirs[cell_index]) * exp(-step_s / calm_time(water_m)));
+    return uint(float(stirs[cell_index]) * exp(-step_s / cell_calm_time(water_m)));
 }
 
 void main()

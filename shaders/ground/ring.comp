@@ -28,11 +28,17 @@ shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_MAX_PIECES + piec
 
 float drops_of_piece(uint index) { return impacts[index].weight / float(piece_count(impacts[index])); }
 
+Crater crater_at(virga_impact_gpu impact, float water_m)
+{
+    return crater_of(impact.diameter_m, length(vec3(impact.velocity[0], impact.velocity[1], impact.velocity[2])),
+                     water_m);
+}
+
 // Weight of a piece: its crater in units of 20 um, squared, times its drops. All craters above that of 2.54 mm count
 // the same, so that the sum over four million impacts fits.
 uint weight_of(uint index)
 {
-    const float units = crater_depth(impacts[index].diameter_m, landings[index].depth_m) * 5e4;
+    const float units = crater_at(impacts[index], landings[index].depth_m).depth_m * 5e4;
     return uint(clamp(units * units * drops_of_piece(index), 1.0, 16129.0));
 }
 
@@ -79,7 +85,7 @@ RingCounts count_below(float bar)
 float find_bar()
 {
     // So that living rings and those still to fall never exceed the ring slots.
-    const float longest_s = VIRGA_RING_TIME_S + VIRGA_GROUND_PIECE_S * float(VIRGA_GROUND_MAX_PIECES);
+    const float longest_s = VIRGA_RING_MAX_LIFE_S + VIRGA_GROUND_PIECE_S * float(VIRGA_GROUND_MAX_PIECES);
     const float quota = 0.95 * float(VIRGA_MAX_RINGS) * tick.tick_s / longest_s;
     const RingCounts all = count_below(1e30);
     if (all.pieces <= quota)
@@ -138,8 +144,9 @@ void start_ring(uint ring_index, uint index, uint i, float chance)
     ring.in_cell = float[2](piece.in_cell.x, piece.in_cell.y);
     ring.tick = impact.tick;
     ring.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, i, piece_hash(impact, i));
-    ring.crater_m =
-        water_m < MIN_WATER_M ? 0.0 : crater_depth(impact.diameter_m, water_m) * sqrt(drops_of_piece(index) / chance);
+    const Crater crater = crater_at(impact, water_m);
+    ring.crater_m = water_m < MIN_WATER_M ? 0.0 : crater.depth_m * sqrt(drops_of_piece(index) / chance);
+    ring.width = crater.width;
     ring.depth_m = water_m;
     ring.id = impact.id;
     rings[ring_index % VIRGA_MAX_RINGS] = ring;

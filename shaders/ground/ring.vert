@@ -23,12 +23,17 @@ int layer_of(float depth_m)
     return layer;
 }
 
+const float LIVES_S[VIRGA_RING_WIDTHS] = float[VIRGA_RING_WIDTHS](VIRGA_RING_LIFE_LIST);
+const float STARTS_M[VIRGA_RING_WIDTHS] = float[VIRGA_RING_WIDTHS](VIRGA_RING_START_LIST);
+const float FRONTS_M_S[VIRGA_RING_WIDTHS] = float[VIRGA_RING_WIDTHS](VIRGA_RING_FRONT_LIST);
+
 void main()
 {
     const uint ring_index = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
     const virga_ring_gpu ring = rings[ring_index];
     const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
-    const float radius = VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * age;
+    const uint width = min(ring.width, VIRGA_RING_WIDTHS - 1u);
+    const float life_s = LIVES_S[width], radius = STARTS_M[width] + FRONTS_M_S[width] * age;
     const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
     const vec2 cell =
         vec2(ivec2(ring.cell[0], ring.cell[1]) - ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) +
@@ -36,13 +41,14 @@ void main()
     offset_m = side * radius;
     const vec2 at =
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
-    const float time = clamp(age / VIRGA_RING_TIME_S, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
+    const float time = clamp(age / life_s, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
     // The table begins with the crater, which opens while the crown around it rises. A crater that is there at once
     // would pop up in pictures that are a few milliseconds apart.
-    const float ends = 1.0 - smoothstep(0.7, 1.0, age / VIRGA_RING_TIME_S);
+    const float ends = 1.0 - smoothstep(VIRGA_RING_FADES, 1.0, age / life_s);
     const float there = smoothstep(0.0, VIRGA_RING_OPENS_S, age) * ends;
     moment = vec3(float(VIRGA_RING_RADII - 1) / radius, fract(time), 100.0 * ring.crater_m * there);
-    row = vec2((floor(time) + 0.5) / float(VIRGA_RING_TIMES), float(layer_of(ring.depth_m)));
-    const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < VIRGA_RING_TIME_S;
+    row = vec2((floor(time) + 0.5) / float(VIRGA_RING_TIMES),
+               float(int(width) * VIRGA_RING_DEPTHS + layer_of(ring.depth_m)));
+    const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < life_s;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : DRAWN_NOWHERE;
 }

@@ -99,7 +99,7 @@ void main()
     const vec3 n = normalize(flat_face - puddle * vec3(slope.x, 0.0, slope.y));
     vec3 r = reflect(d, n);
     r = dot(r, flat_face) > 0.0 ? r : reflect(r, flat_face);
-    const float waves = clamp(sqrt(sqrt(2.0 * water.slope2 * (1.0 - 0.7 * shown))), 0.03, 0.5);
+    const float waves = clamp(sqrt(sqrt(2.0 * water.slope2 * (1.0 - 0.8 * shown))), 0.03, 0.5);
     const float rough = mix(mix(0.45, 0.16, film), waves, puddle), cosine = clamp(-dot(n, d), 0.0, 1.0);
     const float fresnel = 0.0204 + (max(1.0 - rough, 0.0204) - 0.0204) * pow(1.0 - cosine, 5.0);
     const float mirrors = fresnel * max(film, 0.35 * damp);

@@ -112,7 +112,7 @@ struct virga_ground_tick_gpu {
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
 
-/* A ring wave on a puddle, 36 bytes. */
+/* A ring wave on a puddle, 40 bytes. */
 struct virga_ring_gpu {
     int cell[2];      /* cell of the world where the drop fell */
     float in_cell[2]; /* [0; 1), position in that cell */
@@ -121,6 +121,7 @@ struct virga_ring_gpu {
     /* m, depth of the crater; larger if the ring represents several. 0: this entry was never used. */
     float crater_m;
     float depth_m; /* m, of the water */
+    uint width;    /* index of the crater's width in VIRGA_RING_WIDTH_LIST */
     uint id;       /* of the drop */
 };
 
@@ -164,7 +165,7 @@ struct virga_ground_count_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
+VIRGA_ASSERT_SIZE(virga_ring_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);

@@ -23,15 +23,25 @@
 /* Ring waves on puddles: the table of waves, and how many rings are drawn individually. */
 #define VIRGA_RING_DEPTHS     8 /* water depths in the table; a ring uses the nearest */
 #define VIRGA_RING_DEPTH_LIST 0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05 /* m */
-#define VIRGA_RING_TIMES      200                                                   /* time samples of the table */
-#define VIRGA_RING_TIME_S     0.5   /* s, lifetime of a ring: after that, others have crossed it */
+/* Widths of craters in the table; a ring uses the nearest. Waves of a wider crater are longer, slower and live longer:
+ * a list has an item for each width. */
+#define VIRGA_RING_WIDTHS     2
+#define VIRGA_RING_WIDTH_LIST 0.004, 0.01 /* m */
+/* s, lifetime of a ring. Viscosity alone would leave waves of 3 cm for seconds, but rain mixes the water below its
+ * surface, which calms them sooner (Tsimplis 1992, The effect of rain in calming the sea). */
+#define VIRGA_RING_LIFE_LIST  0.5, 0.7
+#define VIRGA_RING_MAX_LIFE_S 0.7
+#define VIRGA_RING_LAYERS     16    /* WIDTHS * DEPTHS: width * DEPTHS + depth */
+#define VIRGA_RING_TIMES      200   /* time samples of the table, from 0 to the end of a life */
 #define VIRGA_RING_OPENS_S    0.005 /* s, time in which the crater opens */
+/* part of its life after which a ring fades: 1 - smoothstep(FADES, 1, age / life) */
+#define VIRGA_RING_FADES 0.7
 /* samples from radius 0 to the front of the waves: 6 per wavelength where a wave has 2 % of the max amplitude */
 #define VIRGA_RING_RADII 256
-/* The front is at START_M + FRONT_M_S t (m). START_M is five crater radii; FRONT_M_S is the group velocity (m/s) of the
- * shortest waves. */
-#define VIRGA_RING_START_M   0.02
-#define VIRGA_RING_FRONT_M_S 0.45
+/* The front is at START + FRONT t (m). START is five crater widths; FRONT is the group velocity (m/s) of the shortest
+ * waves. */
+#define VIRGA_RING_START_LIST 0.02, 0.05
+#define VIRGA_RING_FRONT_LIST 0.45, 0.3
 /* live or still to come at once; if more drops fall, a random choice of them gets rings */
 #define VIRGA_MAX_RINGS 6144
 

@@ -71,24 +71,42 @@ static double radial(int x, int y, double from_x, double from_z)
     return (half_to_float(texel[0]) * dx + half_to_float(texel[1]) * dz) / r;
 }
 
-/* A drop that falls at a share of its tick, so many ticks later. */
-static void check_waves(double share, uint32_t ticks, int first_x, int end_x)
+/* The crater that a drop leaves in deep enough water, as shaders/ground/rings.glsl derives it. */
+typedef struct crater {
+    double depth_m;
+    int width;
+} crater;
+
+static crater crater_of(const virga_impact_gpu *drop)
 {
-    float *table = malloc(sizeof(float) * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
+    static const double pi = 3.14159265358979323846, widths[VIRGA_RING_WIDTHS] = {VIRGA_RING_WIDTH_LIST};
+    const double speed = hypot(hypot((double)drop->velocity[0], (double)drop->velocity[1]), (double)drop->velocity[2]);
+    const double energy = 0.5 * 998.2 * pi / 6 * pow((double)drop->diameter_m, 3) * speed * speed;
+    const double own = pow(energy / 2 / (pi / 4 * 9789), 0.25);
+    const int width = fabs(log(own / widths[0])) < fabs(log(own / widths[1])) ? 0 : 1;
+    const double of_1_m = pi / 8 * 9789 * widths[width] * widths[width] + 3 * pi / 4 * 0.0728;
+    return (crater){sqrt(0.01 * energy / of_1_m), width};
+}
+
+/* A drop that falls at a share of its tick, so many ticks later. */
+static void check_waves(double diameter_m, double share, uint32_t ticks, int first_x, int end_x)
+{
+    float *table = malloc(sizeof(float) * VIRGA_RING_LAYERS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
     ring_table_fill(table, 0.5 * 0.004);
     begin(5);
     virga_impact_gpu *drop = ground_fixture_drop(&f, 0, 0, 0, 4000);
     drop->position[0] = drop->position[2] = 0;
     drop->time_s = (float)share / 60;
-    drop->diameter_m = 2.5e-3f;
+    drop->diameter_m = (float)diameter_m;
+    const crater own = crater_of(drop);
     ground_fixture_step(&f, ticks);
     read_back();
     const double age = (ticks - share) / 60, open = fmin(age / VIRGA_RING_OPENS_S, 1);
-    const double crater = 0.5 * 2.5e-3 * open * open * (3 - 2 * open);
+    const double depth_m = own.depth_m * open * open * (3 - 2 * open);
     double max_error = 0, highest = 0;
     for (int x = first_x; x < end_x; x++) {
         const double r = hypot((x + 0.5 - 128) * 0.004, 0.002);
-        const double expected = crater * ring_table_slope(table, 0.005, r, age);
+        const double expected = depth_m * ring_table_slope(table, ring_layer(own.width, 0.005), r, age);
         max_error = fmax(max_error, fabs(radial(x, 128, 0, 0) - expected));
         highest = fmax(highest, fabs(expected));
     }
@@ -102,20 +120,21 @@ static void check_waves(double share, uint32_t ticks, int first_x, int end_x)
 static void test_the_map_shows_the_waves_of_the_table(void **state)
 {
     (void)state;
-    check_waves(0.5, 12, 132, 150); /* up to 9 cm, inside the softened end */
+    check_waves(1.2e-3, 0.5, 12, 132, 150); /* up to 9 cm, inside the softened end */
+    check_waves(2.5e-3, 0.5, 12, 132, 150);
 }
 
 static void test_the_map_shows_the_crater(void **state)
 {
     (void)state;
-    check_waves(0.7, 1, 128, 132);
+    check_waves(2.5e-3, 0.7, 1, 128, 132);
 }
 
 /* Two milliseconds on, not all of it is there. */
 static void test_the_crater_opens(void **state)
 {
     (void)state;
-    check_waves(0.88, 1, 128, 132);
+    check_waves(2.5e-3, 0.88, 1, 128, 132);
 }
 
 static void test_a_ring_is_of_its_drop_and_its_instant(void **state)
@@ -180,8 +199,8 @@ static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state
     read_back();
     const virga_rings_gpu *head = records.mapped;
     const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
-    const double in_a_life = head->total * (VIRGA_RING_TIME_S * 60) / 60;
-    const double room = VIRGA_MAX_RINGS / (1 + VIRGA_GROUND_PIECE_S * VIRGA_GROUND_MAX_PIECES / VIRGA_RING_TIME_S);
+    const double in_a_life = head->total * VIRGA_RING_MAX_LIFE_S;
+    const double room = VIRGA_MAX_RINGS / (1 + VIRGA_GROUND_PIECE_S * VIRGA_GROUND_MAX_PIECES / VIRGA_RING_MAX_LIFE_S);
     assert_true(in_a_life <= room && in_a_life > 0.8 * room); /* the rest is for pieces that begin later */
     /* In the order of time: the slot after the newest holds the oldest. */
     for (uint32_t i = 1; i < head->total && i < VIRGA_MAX_RINGS; i++)
@@ -204,9 +223,8 @@ static void test_rings_that_are_drawn_bring_the_waves_of_all_drops(void **state)
             virga_impact_gpu *drop =
                 ground_fixture_drop(&f, (int)(h & 15) - 8, (int)(h >> 4 & 15) - 8, 0, i % 100 ? 100 : 4000);
             drop->id = h << 1 | (i % 100 == 0);
-            drop->diameter_m = i % 100 ? 0.6e-3f : 2.2e-3f;
-            const double crater = 0.5 * drop->diameter_m * drop->diameter_m / 2.5e-3;
-            brought += crater * crater;
+            drop->diameter_m = i % 100 ? 0.4e-3f : 2.2e-3f;
+            brought += pow(crater_of(drop).depth_m, 2);
             large += drop->id & 1;
         }
         ground_fixture_step(&f, 1);
@@ -220,8 +238,8 @@ static void test_rings_that_are_drawn_bring_the_waves_of_all_drops(void **state)
         drawn += rings[i].crater_m * rings[i].crater_m;
         shown += rings[i].id & 1;
     }
-    assert_int_equal(shown, large); /* twenty a tick, where there are slots for 94 */
-    /* 1800 small ones are drawn, each for the same share: 0.35 of all, off by 1 / sqrt(1800) of it. */
+    assert_int_equal(shown, large); /* twenty a tick, where there are slots for 78 */
+    /* 1800 small ones are drawn, each for the same share: 0.58 of all, off by 1 / sqrt(1800) of it. */
     if (fabs(drawn / brought - 1) > 0.03)
         fail_msg("%g of the variance that drops bring is drawn", drawn / brought);
     end();
@@ -239,7 +257,7 @@ static void test_a_drop_that_stands_for_many_makes_the_waves_of_all(void **state
     read_back();
     const virga_rings_gpu *head = records.mapped;
     const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
-    const double crater = 0.5 * 2e-3 * 2e-3 / 2.5e-3;
+    const double depth_m = crater_of(drop).depth_m;
     double drawn = 0;
     int latest = 0, cells = 0;
     assert_int_equal(head->total, 32);
@@ -249,7 +267,7 @@ static void test_a_drop_that_stands_for_many_makes_the_waves_of_all(void **state
         assert_true(rings[i].share >= 0 && rings[i].share < 1 + VIRGA_GROUND_PIECE_S * 60 * 32);
         latest = rings[i].share > 24 ? latest + 1 : latest;
     }
-    assert_float_equal(drawn / (40 * crater * crater), 1, 1e-4);
+    assert_float_equal(drawn / (40 * depth_m * depth_m), 1, 1e-4);
     assert_true(latest > 2 && cells > 16);
     end();
 }

@@ -6,6 +6,7 @@
 #include "materials.h"
 #include "png.h"
 #include "scene_rows.h"
+#include "shaders/frame_gpu.h"
 #include "suggest.h"
 
 #include <math.h>
@@ -185,22 +186,46 @@ static void print(const scene_file *scene)
 
 /* ---- life ----------------------------------------------------------------------------------------------------- */
 
-#define RIPPLES_AHEAD_M 4.6 /* of the middle of the map of ripples, which is 6 m wide */
-
 static bool is_used(const scene_file *scene)
 {
     return scene_ground_of(scene)->on;
 }
 
-/* Distance from the camera to the center of the ripple map. It is the distance to the look-at point, but at most a
- * distance that is visible in the lower part of a wide image. */
-static double ripples_ahead(const shot *s, double time_s)
+/* Height of the ground (m) below a point: the highest top below it of the scene's ground meshes that lie under it. 0
+ * where there is none. */
+static double ground_below(const shot *s, const double at_m[3])
 {
-    const host_camera_key *key = s->camera_keys;
-    for (uint32_t i = 1; i < s->path.count && s->camera_keys[i].time_s <= time_s; i++)
-        key = &s->camera_keys[i];
-    const double way = hypot(key->look_at_m[0] - key->position_m[0], key->look_at_m[2] - key->position_m[2]);
-    return way < RIPPLES_AHEAD_M ? way : RIPPLES_AHEAD_M;
+    double height_m = -INFINITY;
+    for (uint32_t i = 0; i < s->meshes_loaded; i++)
+        for (uint32_t j = 0; j < s->meshes[i].primitive_count; j++) {
+            const host_primitive *p = &s->meshes[i].primitives[j];
+            const bool under = (double)p->low[0] <= at_m[0] && at_m[0] <= (double)p->high[0] &&
+                               (double)p->low[2] <= at_m[2] && at_m[2] <= (double)p->high[2];
+            if (p->ground && under && (double)p->high[1] < at_m[1])
+                height_m = fmax(height_m, (double)p->high[1]);
+        }
+    return isfinite(height_m) ? height_m : 0;
+}
+
+/* Distance (m) over the ground from the camera to what the lower edge of the picture shows. At most 10 m: where it
+ * shows no ground, or very distant ground, ripples are not seen one by one. */
+static double seen_from(const shot *s, const host_camera *camera)
+{
+    const float *m = camera->view_from_world; /* its second row points up, its third back */
+    const double down = 1 / fabs((double)camera->clip_from_view_plain[5]);
+    double ray[3];
+    for (int axis = 0; axis < 3; axis++)
+        ray[axis] = -(double)m[2 + 4 * axis] - down * (double)m[1 + 4 * axis];
+    const double height_m = camera->position_m[1] - ground_below(s, camera->position_m);
+    return ray[1] < 0 ? fmin(fmax(height_m, 0) * hypot(ray[0], ray[2]) / -ray[1], 10) : 10;
+}
+
+/* A close-up sees finer waves of a smaller area. */
+static double ripple_texel(const shot *s)
+{
+    host_camera camera;
+    host_camera_at(&s->path, 0, s->options.width, s->options.height, NULL, &camera);
+    return fmin(fmax(0.0055 * sqrt(seen_from(s, &camera)), 0.002), 0.006);
 }
 
 static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
@@ -212,8 +237,7 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
     def->ground.cell_m = (float)from->cell_m;
     def->ground.cached_tiles = from->cached_tiles;
     def->ground.far_cells = from->far_cells;
-    /* A close-up sees finer waves of a smaller area. */
-    def->ground.ripple_texel_m = (float)fmax(0.006 * ripples_ahead(s, 0) / RIPPLES_AHEAD_M, 0.002);
+    def->ground.ripple_texel_m = (float)ripple_texel(s);
     return true;
 }
 
@@ -307,15 +331,17 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
 }
 
-/* Ripples are worth drawing ahead of the camera, from its feet on. */
+/* The map of ripples begins where the picture does. */
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
                        char *error, size_t error_size)
 {
     const ground_state *g = state;
-    const double ahead_m = ripples_ahead(s, time_s);
+    const virga_ground_def def = virga_default_ground_def();
+    const double side_m = def.ripple_texels * ripple_texel(s);
+    const double ahead_m = seen_from(s, camera) + (0.5 - HOST_RIPPLES_FADE) * side_m;
     const float *m = camera->view_from_world; /* its third row points back */
     const double back[2] = {(double)m[2], (double)m[10]}, length = hypot(back[0], back[1]);
-    (void)error, (void)error_size;
+    (void)time_s, (void)error, (void)error_size;
     frame->materials = g->materials;
     memcpy(frame->ripple_center_m, camera->position_m, sizeof frame->ripple_center_m);
     for (int axis = 0; axis < 2 && length > 1e-3; axis++)

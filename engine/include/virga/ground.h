@@ -206,7 +206,8 @@ typedef struct virga_ground_step_info {
      * height at the first step. */
     double camera_m[3];
 
-    /* Middle of the ripple map: a point on the ground some metres ahead of the camera, where ripples are visible. */
+    /* Middle of the ripple map: a point on the ground some metres ahead of the camera, where ripples are visible. The
+     * best use of its texels: let the map begin where the lower edge of the picture meets the ground. */
     double ripple_center_m[3];
 
     /* All meshes of the host. Where the window moves, those with `ground` are drawn into its height map. Where the far
@@ -302,7 +303,8 @@ typedef struct virga_ground_maps {
     VkImageView spots;
 
     /* R16G16_SFLOAT: slope of the water surface in x and z at the newest tick. It goes on under dry ground, so use it
-     * only where the depth is not zero. Does not wrap. */
+     * only where the depth is not zero. Does not wrap. It has about four fifths of the slope variance in `wetness`, so
+     * add a fifth of that to the roughness where the map is used, and all of it elsewhere. */
     VkImageView ripples;
     uint32_t ripple_texels;
     float ripple_texel_m;

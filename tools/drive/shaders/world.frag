@@ -179,7 +179,7 @@ void main()
                       (1.0 - smoothstep(0.006, 0.03, pixel / max(frame.ground_low.w, 1e-6)));
         vec2 slope = textureLod(ripple_map, point, 0.0).xy * drawn;
         vec3 up = normalize(vec3(-slope.x, 1.0, -slope.y));
-        float rough = clamp(sqrt(sqrt(2.0 * water.slope2 * (1.0 - 0.7 * drawn))), 0.03, 0.5);
+        float rough = clamp(sqrt(sqrt(2.0 * water.slope2 * (1.0 - 0.8 * drawn))), 0.03, 0.5);
         float c = 1.0 - clamp(dot(up, v), 0.0, 1.0), fresnel = 0.0204 + 0.9796 * c * c * c * c * c;
         vec3 d = reflect(-v, up);
         d.y = abs(d.y);

@@ -16,9 +16,10 @@ typedef float host_mat4[16];
 #define HOST_LIGHT struct host_light_gpu
 #endif
 
-#define HOST_MAX_LIGHTS 16
-#define HOST_LEVEL_Y    0.3    /* normals that rise less are too steep for water */
-#define HOST_MIRROR_FAR 1000.0 /* metres: how far away all that is farther counts as */
+#define HOST_MAX_LIGHTS   16
+#define HOST_RIPPLES_FADE 0.08   /* part of the ripple map's side along its edges in which ripples fade out */
+#define HOST_LEVEL_Y      0.3    /* normals that rise less are too steep for water */
+#define HOST_MIRROR_FAR   1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
     HOST_VEC4 position;  /* position relative to the camera, 1 / range or 0 */

@@ -35,7 +35,7 @@ vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
 {
     const vec2 at = (relative.xz - frame.ripples.xy) * frame.ripples.z;
     const vec2 inside = min(at, 1.0 - at);
-    drawn = frame.ripples.w > 0.0 ? smoothstep(0.0, 0.12, min(inside.x, inside.y)) : 0.0;
+    drawn = frame.ripples.w > 0.0 ? smoothstep(0.0, HOST_RIPPLES_FADE, min(inside.x, inside.y)) : 0.0;
     // Waves of about 2 cm can not be seen where a sample is as wide.
     drawn *= 1.0 - smoothstep(0.006, 0.03, pixel_m * sqrt(frame.sampling.x));
     const vec2 slope = textureLod(ripple_map, at, 0.0).xy * drawn;
@@ -87,7 +87,8 @@ Water water_at(vec3 relative, vec3 n)
     const Grain grain =
         grain_at(at, frame.ground_wrap.xy, int(frame.ground_wrap.z), cell_m, pixel_m * sqrt(frame.sampling.x),
                  water.puddle > 0.0 ? ground_material() : -1, wet.depth_mm);
-    const float waves2 = wet.slope2 * (1.0 - 0.7 * drawn) + within + grain.stirred2;
+    // The map shows all but the smallest drops' waves, which are shorter than its texels: a fifth of the variance.
+    const float waves2 = wet.slope2 * (1.0 - 0.8 * drawn) + within + grain.stirred2;
     // Where stones or thin water give the slope, and where the waves do.
     const float level_mm = virga_ground_level_mm(wet.depth_mm, grain.spread_mm) - CLIMB_MM;
     const float still =
