@@ -45,15 +45,6 @@ rain: {rate_mm_h: 0, max_drops: 1024, occlusion_size: 64}
 water: {files: particles/ball_%04d.ply, rate_hz: 10, spray_density: 0.6}
 YAML
 
-# render SCENE FOLDER OPTION...
-render() {
-    local scene=$1 folder=$work/$2
-    shift 2
-    timeout 120 "$virga" render "$work/$scene.yaml" -o "$folder" --device "$device" "$@" >"$work/log" 2>&1 ||
-        { cat "$work/log"; fail "render $scene $*"; }
-    ! grep '^validation: ' "$work/log" || fail "render $scene $*: validation"
-}
-
 # numbers FOLDER LINE: a line of stats.jsonl without its times.
 numbers() {
     sed -n "$2p" "$work/$1/stats.jsonl" | sed -E 's/,"milliseconds":\{[^}]*\}//'
@@ -63,10 +54,10 @@ numbers() {
 goes_on() {
     local scene=$1
     shift
-    VIRGA_VALIDATE=0 render "$scene" "$scene" --frames 1-5 --checkpoint-every 4 --stats "$@"
+    VIRGA_VALIDATE=0 draw "$scene" "$scene" --frames 1-5 --checkpoint-every 4 --stats "$@"
     mkdir "$work/$scene.part"
     cp "$work/$scene/checkpoint.0004.virga" "$work/$scene.part"
-    render "$scene" "$scene.part" --frames 5-5 --stats "$@"
+    draw "$scene" "$scene.part" --frames 5-5 --stats "$@"
     grep -q "starts from the checkpoint of frame 4" "$work/log" || fail "$scene does not start from frame 4"
     for file in "$work/$scene"/*.0005.*; do
         cmp -s "$file" "$work/$scene.part/$(basename "$file")" || fail "$scene: $(basename "$file") differs"

@@ -17,3 +17,13 @@ for program in "$@"; do
     command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
 "$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+
+# draw SCENE FOLDER OPTION...: renders $work/SCENE.yaml into $work/FOLDER. Any message of the validation layer is a
+# failure.
+draw() {
+    local scene=$1 folder=$2
+    shift 2
+    timeout 120 "$virga" render "$work/$scene.yaml" -o "$work/$folder" --device "$device" "$@" >"$work/log" 2>&1 ||
+        { cat "$work/log"; fail "render $scene $*"; }
+    ! grep '^validation: ' "$work/log" || fail "render $scene $*: validation"
+}

@@ -22,20 +22,11 @@ water:
       - {low_m: [0.3, 0.4, -0.1], high_m: [0.5, 0.6, 0.1], velocity_m_s: [0, 0.2, 0]}
 YAML
 
-# render FOLDER OPTION...
-render() {
-    local folder=$work/$1
-    shift
-    timeout 120 "$virga" render "$work/pool.yaml" -o "$folder" --device "$device" --points --stats "$@" \
-        >"$work/log" 2>&1 || { cat "$work/log"; fail "render $*"; }
-    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
-}
-
-render all --frames 1-5
+draw pool all --points --stats --frames 1-5
 python3 "$here/check_solver.py" "$work/all" 20 1-5 || fail "water in all frames"
-render alone --frames 4 --samples 2
+draw pool alone --points --stats --frames 4 --samples 2
 cmp "$work/all/water_particles.0004.ply" "$work/alone/water_particles.0004.ply" || fail "frame 4 alone is another one"
-VIRGA_VALIDATE=0 render late --frames 5 --set water.start_s=0.1
+VIRGA_VALIDATE=0 draw pool late --points --stats --frames 5 --set water.start_s=0.1
 python3 "$here/check_solver.py" "$work/late" 20 5 0.1 || fail "water that begins to move later"
 
 # Bodies: one falls where no water is, one has keys, and a post of the scene stands in the water.
@@ -66,15 +57,7 @@ cat >>"$work/bodies.yaml" <<'YAML'
       - {name: paddle, box_m: [0.1, 0.1, 0.1], keys: [{time_s: 0, position_m: [0.1, 0.7, 0]},
          {time_s: 0.1, position_m: [0.2, 0.8, 0], rotation_deg: [0, 0, 90]}]}
 YAML
-# bodies FOLDER OPTION...
-bodies() {
-    local folder=$work/$1
-    shift
-    timeout 120 "$virga" render "$work/bodies.yaml" -o "$folder" --device "$device" --stats --points "$@" \
-        >"$work/log" 2>&1 || { cat "$work/log"; fail "render $*"; }
-    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
-}
-bodies bodies --frames 1-5 --samples 2
+draw bodies bodies --points --stats --frames 1-5 --samples 2
 python3 "$here/check_bodies.py" "$work/bodies" 20 || fail "bodies"
 
 # A box drives through a puddle: its water becomes particles there, and all of it is counted.
@@ -105,9 +88,7 @@ water:
       - {name: wheel, box_m: [0.1, 0.2, 0.2], keys: [{time_s: 0, position_m: [-0.4, 0.12, 0]},
          {time_s: 0.3, position_m: [0.4, 0.12, 0]}]}
 YAML
-timeout 120 "$virga" render "$work/puddle.yaml" -o "$work/puddle" --device "$device" --stats --frames 1-8 \
-    >"$work/log" 2>&1 || { cat "$work/log"; fail "a puddle"; }
-! grep '^validation: ' "$work/log" || fail "a puddle: validation"
+draw puddle puddle --stats --frames 1-8
 python3 "$here/check_exchange.py" "$work/puddle" || fail "water of a puddle"
 
 # Rain falls on a board that stands still and one that is turned by its keys: nearly none comes to the ground.
@@ -130,9 +111,7 @@ water:
       - {name: turned, box_m: [5.8, 2.9, 0.2], keys: [{time_s: 0, position_m: [0, 1.5, 1.45], rotation_deg: [90, 0, 0]},
          {time_s: 1, position_m: [0, 2.5, 1.45], rotation_deg: [90, 0, 0]}]}
 YAML
-timeout 120 "$virga" render "$work/roof.yaml" -o "$work/roof" --device "$device" --stats --frames 5 \
-    >"$work/log" 2>&1 || { cat "$work/log"; fail "rain on bodies"; }
-! grep '^validation: ' "$work/log" || fail "rain on bodies: validation"
+draw roof roof --stats --frames 5
 python3 - "$work/roof/stats.jsonl" <<'END' || fail "rain on bodies"
 import json, sys
 water = json.loads(open(sys.argv[1]).readlines()[-1])["water_ul"]
