@@ -79,7 +79,7 @@ void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd, bool due)
     ground_far *far = &ground->far;
     const uint32_t cells = ground->def.far_cells;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.far");
-    if (far->is_unsure)
+    if (far->is_uncertain)
         virga_image_barrier(context, cmd, far->map->image, VK_IMAGE_ASPECT_COLOR_BIT, anything, written);
     virga_dispatch(context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
     virga_pass_end(context, cmd, scope);

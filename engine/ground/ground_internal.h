@@ -142,7 +142,7 @@ typedef struct ground_far {
     uint64_t drawn_at;                    /* in ticks */
     virga_ground_tick_gpu tick, drawn_by; /* the newest tick, and the one by which the map was drawn */
     bool can_repeat;                      /* `drawn_by` is known */
-    bool is_unsure;                       /* the device may not have executed the map's first transition */
+    bool is_uncertain;                    /* the device may not have executed the map's first transition */
 } ground_far;
 
 /* Moves the distant map with the camera. Returns true if its height map must be drawn again. */

@@ -510,7 +510,7 @@ static void write_far_map(virga_ground *ground, VkCommandBuffer cmd)
 {
     ground_far *far = &ground->far;
     const bool due = ground_far_is_due(ground);
-    if (!due && !(far->is_unsure && far->can_repeat))
+    if (!due && !(far->is_uncertain && far->can_repeat))
         return;
     if (due) {
         far->drawn_by = far->tick;
@@ -546,7 +546,7 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_effect_reads(&ground->base, cmd, ground->info.returned_droplets);
     virga_effect_reads(&ground->base, cmd, ground->info.exchange.buffer);
     virga_effect_reads(&ground->base, cmd, ground->info.water_count ? ground->info.water : VK_NULL_HANDLE);
-    ground->far.is_unsure = first;
+    ground->far.is_uncertain = first;
     if (!first)
         return;
     virga_mesh_map_first_layouts(context, cmd, ground->height_map);

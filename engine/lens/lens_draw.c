@@ -270,9 +270,9 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
 {
     virga_context *context = lens->base.context;
     const uint32_t shaped = view->blades > 0 || view->cats_eye > 0 ? VIRGA_LENS_SHAPED : 0;
-    const uint32_t most = (uint32_t)fminf(ceilf(view->max_radius) + 1, VIRGA_LENS_MAX_RADIUS);
+    const uint32_t radius = (uint32_t)fminf(ceilf(view->max_radius) + 1, VIRGA_LENS_MAX_RADIUS);
     over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE,
-         VIRGA_LENS_AREA_ROWS + (shaped ? 2 * most + 1 : 0));
+         VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0));
     over(lens, cmd, "lens.sample", lens->sample[is_linear(view)], view->columns, view->rows);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
     virga_dispatch_2d(context, cmd, lens->tile[depth_layers(view)], view->tile_columns, view->tile_rows);

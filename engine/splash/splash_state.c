@@ -16,13 +16,13 @@ static double groups_over(double slots)
 static void check_groups(const virga_splash *splash, const virga_splash_state_gpu *saved, virga_state_check *check)
 {
     const double droplets = groups_over(splash->def.max_droplets), splashes = groups_over(splash->def.max_splashes);
-    const double most = droplets > splashes ? droplets : splashes;
+    const double larger = droplets > splashes ? droplets : splashes;
     virga_state_expect_groups(check, "splash.state.droplet_groups", saved->droplet_groups, droplets);
     virga_state_expect_groups(check, "splash.state.splash_groups", saved->splash_groups, splashes);
     virga_state_expect_groups(check, "splash.state.spawn_groups", saved->spawn_groups,
                               groups_over(splash->def.max_spawns));
     virga_state_expect_groups(check, "splash.state.fall_groups", saved->fall_groups, droplets);
-    virga_state_expect_groups(check, "splash.state.find_groups", saved->find_groups, most);
+    virga_state_expect_groups(check, "splash.state.find_groups", saved->find_groups, larger);
     virga_state_expect_groups(check, "splash.state.find_droplet_groups", saved->find_droplet_groups, droplets);
     virga_state_expect_groups(check, "splash.state.find_splash_groups", saved->find_splash_groups, splashes);
     virga_state_expect_groups(check, "splash.state.sprite_groups", saved->sprite_groups, 3 * droplets + splashes);

@@ -3,7 +3,7 @@
 // A particle feels up to VIRGA_FLUID_TOUCHES bodies, as it feels the walls of the box: their part of its density, and
 // the gradient G of that part. Its pressure p pushes it by -p G, and the body by p G: what one gets the other loses.
 // The solver sees the body move under these pushes in each of its iterations. So a light body, which water would throw
-// about if it were told of the pressure only at the end, is as stable as a heavy one.
+// about if it moved only after the last iteration, is as stable as a heavy one.
 #include "gpu/quaternion.glsl"
 
 #ifndef BODIES_ACCESS

@@ -413,7 +413,7 @@ static uint64_t find_light(lit *l, double *light)
 }
 
 /* The host's last picture, recorded in the frame that draws it, frame after frame without waiting. Frames that are
- * thrown away, told or not, leave the light of the newest frame that the device has executed. */
+ * thrown away, reported or not, leave the light of the newest frame that the device has executed. */
 static void the_last_picture_of_each_frame_is_found(void **state)
 {
     static const float black[HEIGHT][WIDTH][4];

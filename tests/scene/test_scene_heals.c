@@ -1,5 +1,5 @@
 /* test_scene_heals.c - each effect alone, in a host that throws frames away: the first one, any later one, several in a
- * row, told or not. When the frames in flight are over, its picture is there again. */
+ * row, reported or not. When the frames in flight are over, its picture is there again. */
 #include "../gpu/gpu_fixture.h"
 #include "../gpu/small_scene.h"
 #include "layered_pass.h"

@@ -1,5 +1,5 @@
 /* test_scene_multiview.c - passes of several views: each effect's layers are, byte for byte, what passes of one view
- * show; and what such a pass needs is told. */
+ * show; and what such a pass lacks is an error. */
 #include "layered_pass.h"
 #include "views_fixture.h"
 
