@@ -299,8 +299,8 @@ static virga_result check_section(const char *call, const virga_state_effect *on
     if (section->host_bytes != expected.host_bytes || section->device_bytes != expected.device_bytes || !parts->host ||
         !take(in, expected.device_bytes))
         return virga_wrong_argument(log, "%s: the state of %s has %llu bytes, expected %llu", call, expected.name,
-                                    (unsigned long long)(section->host_bytes + section->device_bytes),
-                                    (unsigned long long)(expected.host_bytes + expected.device_bytes));
+                                    (unsigned long long)section->host_bytes + section->device_bytes,
+                                    (unsigned long long)expected.host_bytes + expected.device_bytes);
     return check_matches(log, call, effect, parts->host);
 }
 
