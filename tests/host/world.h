@@ -24,7 +24,7 @@
 #define WORLD_WIDTH           96
 #define WORLD_HEIGHT          54
 #define WORLD_PIXELS          (WORLD_WIDTH * WORLD_HEIGHT)
-#define WORLD_FRAMES          18
+#define WORLD_FRAMES          16
 #define WORLD_FPS             24.0
 #define WORLD_NEAR_M          0.02
 #define WORLD_FAR_M           100.0

@@ -22,7 +22,7 @@ void main()
     const float across = abs(dot(middle_line, vec3(gl_FragCoord.xy, 1.0)));
     float alpha = light_alpha.a * streak_profile(across, shape.x) * streak_length(along_turns_depth.x, shape.y);
     if (HAS_DEPTH)
-        alpha *= soft_edge(along_turns_depth.z, depth_terms);
+        alpha *= soft_edge(1.0 / along_turns_depth.z, depth_terms);
     radiance = for_target(vec4(light_alpha.rgb * streak_wave(along_turns_depth.y, shape.z) * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);

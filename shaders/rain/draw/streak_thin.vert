@@ -9,7 +9,7 @@
 #include "streak.glsl"
 #include "gpu/streak_profile.glsl"
 
-// x: see streak_begun; y: turns of the wave; z: view depth
+// x: see streak_begun; y: turns of the wave; z: 1 / view depth, which is linear on the picture
 layout(location = 0) noperspective out vec3 along_turns_depth;
 layout(location = 1) flat out vec4 light_alpha;
 layout(location = 2) flat out vec3 shape; // x: half width; y: see streak_ends; z: size of the wave
@@ -23,7 +23,7 @@ void main()
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
     along_turns_depth =
-        vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_phase(streak), streak.distance);
+        vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_phase(streak), 1.0 / streak.distance);
     // The mean over the width: half of each colour if narrow, by u^2 if wide (see streak_wide.frag).
     const float width_blend = clamp(streak.half_width - 0.75, 0.0, 1.0);
     light_alpha = vec4(mix(streak.center, streak.rim, width_blend / 3.0 + (1.0 - width_blend) * 0.5), streak.alpha);

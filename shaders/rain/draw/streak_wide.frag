@@ -51,11 +51,12 @@ void main()
     const float u = min(abs(streak_position.x) / half_width, 1.0);
     float alpha =
         center_alpha.a * streak_capsule(abs(streak_position.x), half_width, streak_position.y, path_px, body_px);
+    const float depth_m = 1.0 / streak_position.w;
     if (HAS_LENS)
-        alpha *= mix(lens_edge(streak_position.xy, half_width, path_px, mat2(across, onward), streak_position.w,
-                               depth_terms), soft_edge(streak_position.w, depth_terms), focus);
+        alpha *= mix(lens_edge(streak_position.xy, half_width, path_px, mat2(across, onward), depth_m, depth_terms),
+                     soft_edge(depth_m, depth_terms), focus);
     else if (HAS_DEPTH)
-        alpha *= soft_edge(streak_position.w, depth_terms);
+        alpha *= soft_edge(depth_m, depth_terms);
     if (alpha <= 0.0)
         discard;
 

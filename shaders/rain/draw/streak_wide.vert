@@ -8,7 +8,8 @@
 #include "view.glsl"
 #include "streak.glsl"
 
-// x: px from the center line; y: px from the tail; z: turns of the wave; w: view depth
+// x: px from the center line; y: px from the tail; z: turns of the wave; w: 1 / view depth, which is linear on the
+// picture
 layout(location = 0) noperspective out vec4 streak_position;
 layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
@@ -25,7 +26,7 @@ void main()
     // What hides a drop out of focus is found by the pixel, see lens_edge.glsl. It passes every test of depth.
     if (HAS_LENS && streak.focus < 1.0)
         gl_Position.z = (1.0 - view.far_depth) * gl_Position.w;
-    streak_position = vec4(streak.across, streak.along, streak_phase(streak), streak.distance);
+    streak_position = vec4(streak.across, streak.along, streak_phase(streak), 1.0 / streak.distance);
     center_alpha = vec4(streak.center, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
     shape = vec4(streak.half_width, streak.body_px, streak.way_px, streak.focus);

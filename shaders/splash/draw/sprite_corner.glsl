@@ -14,7 +14,7 @@ TEXELS(sprite_texel, 20, 13) // four texels per sprite; behind all of them a tex
 layout(location = 5) noperspective out vec2 motion; // px
 #endif
 
-// x: px from the center line; y: px from the tail; z: view depth
+// x: px from the center line; y: px from the tail; z: 1 / view depth, which is linear on the picture
 layout(location = 0) noperspective out vec4 sprite_position;
 layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_kind;
@@ -50,7 +50,8 @@ void set_corner(uint vertex)
     const vec4 moved = uintBitsToFloat(sprite_texel(4u * look.max_sprites + (vertex >> 2)));
     motion = at_head ? moved.xy : moved.zw;
 #endif
-    sprite_position = vec4(across, at_head ? path_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
+    sprite_position =
+        vec4(across, at_head ? path_px + margin : -margin, 1.0 / max(at_head ? depths.z : depths.w, 1e-6), 0.0);
     center_alpha = vec4(light[0], light[1].x, alpha_body.x);
     rim_kind = vec4(light[1].y, light[2], float(kind));
     shape = vec4(0.5 * widths, path_px, alpha_body.y);

@@ -136,5 +136,6 @@ float puff_cover()
 float sprite_cover()
 {
     const float cover = PUFFS ? puff_cover() : LINES || rim_kind.w < 0.5 ? droplet_cover() : pile_cover();
-    return min(center_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * (HAS_DEPTH ? soft_edge(sprite_position.z) : 1.0);
+    const float soft = HAS_DEPTH ? soft_edge(1.0 / sprite_position.z) : 1.0;
+    return min(center_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * soft;
 }
