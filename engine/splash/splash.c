@@ -91,13 +91,16 @@ static virga_result fit_device(const virga_context *context, void *given)
         (VkDeviceSize)context->properties.limits.maxComputeWorkGroupCount[0] * VIRGA_SPLASH_GROUP;
     const VkDeviceSize counted = indexed < grouped ? indexed : grouped;
     const VkDeviceSize fits = max / widest < counted ? max / widest : counted;
-    const uint32_t requested = def->max_droplets, blocks = (uint32_t)(fits / VIRGA_SPLASH_BLOCK) - 1;
+    const uint32_t requested = def->max_droplets;
+    const uint32_t blocks = fits > 2 * VIRGA_SPLASH_BLOCK ? (uint32_t)(fits / VIRGA_SPLASH_BLOCK) - 1 : 1;
     if (def->max_droplets > blocks * VIRGA_SPLASH_BLOCK)
         def->max_droplets = blocks * VIRGA_SPLASH_BLOCK;
     if (requested != def->max_droplets)
         virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                        "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
-                        def->max_droplets, (unsigned long long)max);
+                        "splash_def.max_droplets: %u, as this device allows no more (storage buffers of %llu bytes, "
+                        "indices up to %u, %u workgroups)",
+                        def->max_droplets, (unsigned long long)max, context->properties.limits.maxDrawIndexedIndexValue,
+                        context->properties.limits.maxComputeWorkGroupCount[0]);
     while (sizeof(virga_impacts_gpu) + def->max_returned_droplets * sizeof(virga_impact_gpu) > max)
         def->max_returned_droplets /= 2;
     /* The budget may have asked for fewer. The water of each spawn may come back in the step in which it is read. */

@@ -21,11 +21,10 @@ static void count_line(void *user, virga_log_level level, virga_log_id id, const
     lines[id]++;
 }
 
-static virga_context *open_context(virga_pipeline_build_mode mode)
+static virga_context *create_context(virga_pipeline_build_mode mode)
 {
     virga_context_def def = virga_default_context_def();
     virga_context *context = NULL;
-    stand_in_open();
     memset(lines, 0, sizeof lines);
     def.instance = stand_in_instance();
     def.physical_device = stand_in_physical();
@@ -35,6 +34,12 @@ static virga_context *open_context(virga_pipeline_build_mode mode)
     def.log = count_line;
     assert_int_equal(virga_context_create(&def, &context), VIRGA_OK);
     return context;
+}
+
+static virga_context *open_context(virga_pipeline_build_mode mode)
+{
+    stand_in_open();
+    return create_context(mode);
 }
 
 static virga_scene *open_scene(virga_context *context)
@@ -163,6 +168,36 @@ static void a_list_of_a_destroyed_object_is_refused(void **state)
     assert_true(stand_in_close());
 }
 
+/* The stand-in stops the program at a dispatch of more workgroups than it allows. */
+static void droplets_are_limited_by_indices_and_workgroups(void **state)
+{
+    const uint32_t index_limits[] = {0, (1 << 24) - 1, UINT32_MAX};
+    (void)state;
+    for (size_t i = 0; i < sizeof index_limits / sizeof *index_limits; i++) {
+        stand_in_open();
+        stand_in.properties.limits.maxDrawIndexedIndexValue = index_limits[i];
+        virga_context *context = create_context(VIRGA_PIPELINES_IMMEDIATE);
+        virga_splash_def def = virga_default_splash_def();
+        virga_splash *splash = NULL;
+        def.max_droplets = 4194304;
+        assert_int_equal(virga_splash_create(context, &def, &splash), VIRGA_DEGRADED);
+        assert_int_equal(lines[VIRGA_LOG_CLAMPED], 1);
+        VkCommandBuffer cmd = stand_in_begin(VK_NULL_HANDLE);
+        for (int frame = 0; frame < 2; frame++) {
+            const virga_splash_step_info step = {.first_tick = (uint64_t)frame,
+                                                 .ticks = 1,
+                                                 .camera_m = {1e4 * frame},
+                                                 .spawns = (VkBuffer)stand_in_object(VK_OBJECT_TYPE_BUFFER),
+                                                 .spawns_size = 1 << 26};
+            assert_int_equal(virga_frame_begin(context, frame + 1, frame), VIRGA_OK);
+            assert_int_equal(virga_splash_step(splash, cmd, &step), VIRGA_OK);
+        }
+        virga_splash_destroy(&splash);
+        virga_context_destroy(&context);
+        assert_true(stand_in_close());
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -172,6 +207,7 @@ int main(void)
         cmocka_unit_test(rain_without_panes_finds_no_hits),
         cmocka_unit_test(maps_of_the_host_wait_for_pipelines),
         cmocka_unit_test(a_list_of_a_destroyed_object_is_refused),
+        cmocka_unit_test(droplets_are_limited_by_indices_and_workgroups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

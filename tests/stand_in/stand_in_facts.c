@@ -55,6 +55,7 @@ void stand_in_open(void)
                                          .maxFramebufferLayers = 1024,
                                          .maxColorAttachments = 8,
                                          .maxVertexInputBindingStride = 2048,
+                                         .maxDrawIndexedIndexValue = (1 << 24) - 1,
                                          .timestampPeriod = 1,
                                          .lineWidthRange = {1, 8},
                                          .nonCoherentAtomSize = 64};
