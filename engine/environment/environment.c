@@ -232,7 +232,7 @@ virga_result virga_environment_record(virga_environment *environment, VkCommandB
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_FRAGMENTS);
     virga_pass_end(context, cmd, scope);
     virga_effect_copy_statistics(base, cmd, 0, environment->result, 0, 0, 27 * sizeof(float));
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }
 
 /* ---- queries */

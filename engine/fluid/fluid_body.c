@@ -220,7 +220,7 @@ static virga_result extend_map(virga_fluid *fluid, const body_mesh *mesh, const 
                             "fluid.map_upload", &upload));
     memcpy(upload->memory.block.mapped, grown, all * sizeof *grown);
     virga_buffer_flush(context, upload, 0, upload->size);
-    TRY(virga_check_uploads(context));
+    TRY(virga_recording_result(context));
     VIRGA_RETIRE(context, fluid->map_upload);
     virga_free(&context->heap, fluid->map);
     fluid->map_upload = upload;

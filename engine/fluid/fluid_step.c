@@ -305,5 +305,5 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
                                  sizeof(virga_exchange_gpu));
     virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->state, 0, offsetof(fluid_readback, state),
                                  sizeof(virga_fluid_state_gpu));
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }

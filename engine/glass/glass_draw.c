@@ -475,7 +475,7 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
     seen->shapes = !glass_is_all_textured(&glass->settings);
     seen->textures = glass_is_textured(&glass->settings);
     seen->front = glass_is_front(&glass->settings);
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }
 
 void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)

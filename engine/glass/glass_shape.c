@@ -432,7 +432,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_buffer_flush(context, nodes, 0, nodes->size);
     glass->masked = shape->mask != NULL;
     TRY(glass_picture_need(glass, &glass->settings));
-    TRY(virga_check_uploads(context));
+    TRY(virga_recording_result(context));
     remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);

@@ -576,6 +576,6 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
         record_ticks(glass, cmd, info);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),
                                  sizeof(virga_glass_state_gpu));
-    const virga_result uploaded = virga_check_uploads(context);
+    const virga_result uploaded = virga_recording_result(context);
     return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

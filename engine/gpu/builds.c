@@ -1,4 +1,4 @@
-/* gpu/builds.c - when pipelines are built: at once, in steps of the host's choice, or by the host's jobs.
+/* gpu/builds.c - when pipelines are built: at once, in steps of the host's choice, by the host's jobs, or on use.
  *
  * A waiting build holds a copy of its definition. Any thread may run it: it calls the device and writes only into the
  * build. The API's thread collects the result. So the context needs no lock: threads share only the state of a build:
@@ -96,10 +96,29 @@ virga_result virga_build_request(virga_context *context, virga_built *built, con
     return VIRGA_OK;
 }
 
+/* One that waits on use is built now. If that fails, the pipeline says why. */
+static void build_now(const virga_pipeline *pipeline)
+{
+    virga_build *build = pipeline->built->build;
+    if (pipeline->pipeline || !build || build->context->pipeline_build_mode != VIRGA_PIPELINES_ON_USE)
+        return;
+    run(build);
+    virga_builds_collect(build->context);
+}
+
+VkPipeline virga_build_on_use(virga_context *context, const virga_pipeline *pipeline)
+{
+    build_now(pipeline);
+    if (pipeline->failed)
+        context->recording_failed = pipeline->failed;
+    return pipeline->pipeline;
+}
+
 virga_result virga_pipelines_ready(const virga_pipeline *const *pipelines, uint32_t count)
 {
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < count; i++) {
+        build_now(pipelines[i]);
         if (pipelines[i]->failed)
             return pipelines[i]->failed;
         result = pipelines[i]->pipeline ? result : VIRGA_NOT_READY;
@@ -113,7 +132,7 @@ virga_result virga_group_ready(const virga_pipeline_group *group)
 }
 
 /* One that waited has its pipeline now. If it was retired meanwhile, its group may be gone. */
-static void serve(virga_pipeline *pipeline, VkPipeline handle, virga_result result)
+static void serve(const virga_context *context, virga_pipeline *pipeline, VkPipeline handle, virga_result result)
 {
     pipeline->waits = false;
     pipeline->after = NULL;
@@ -122,7 +141,8 @@ static void serve(virga_pipeline *pipeline, VkPipeline handle, virga_result resu
     pipeline->pipeline = handle;
     pipeline->failed = result;
     if (pipeline->group) {
-        pipeline->group->waiting--;
+        if (context->pipeline_build_mode != VIRGA_PIPELINES_ON_USE)
+            pipeline->group->waiting--;
         if (result && !pipeline->group->failed)
             pipeline->group->failed = result;
     }
@@ -138,7 +158,7 @@ static virga_result hand_over(virga_context *context, virga_build *build)
     while (built->waiting) {
         virga_pipeline *pipeline = built->waiting;
         built->waiting = pipeline->after;
-        serve(pipeline, built->handle, result);
+        serve(context, pipeline, built->handle, result);
     }
     return result;
 }
@@ -234,7 +254,8 @@ virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, u
         return VIRGA_ERROR_INVALID;
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (context->pipeline_build_mode == VIRGA_PIPELINES_DEFERRED)
+    const bool on_use = context->pipeline_build_mode == VIRGA_PIPELINES_ON_USE;
+    if (on_use || context->pipeline_build_mode == VIRGA_PIPELINES_DEFERRED)
         run_some(context, max_count);
     const virga_result result = virga_builds_collect(context);
     uint32_t count = 0;
@@ -242,5 +263,5 @@ virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, u
         count += build->owner && is_wanted(build->owner);
     if (remaining)
         *remaining = count;
-    return result ? result : count ? VIRGA_NOT_READY : VIRGA_OK;
+    return result ? result : count && !on_use ? VIRGA_NOT_READY : VIRGA_OK;
 }

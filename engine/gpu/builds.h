@@ -9,9 +9,14 @@
 virga_result virga_build_request(virga_context *context, virga_built *built, const virga_compute_def *compute,
                                  const virga_graphics_def *graphics);
 
-/* VIRGA_OK: all are built. VIRGA_NOT_READY: some are not yet. Else the reason why one never will be. */
+/* VIRGA_OK: all are built. VIRGA_NOT_READY: some are not yet. Else the reason why one never will be. With
+ * VIRGA_PIPELINES_ON_USE it builds what is missing of these pipelines, and nothing of a group is ever missing. */
 virga_result virga_pipelines_ready(const virga_pipeline *const *pipelines, uint32_t count);
 virga_result virga_group_ready(const virga_pipeline_group *group);
+
+/* The pipeline to bind. With VIRGA_PIPELINES_ON_USE it is built by the first call. NULL: it could not be built; then
+ * the pass is not recorded, and virga_recording_result returns the error. */
+VkPipeline virga_build_on_use(virga_context *context, const virga_pipeline *pipeline);
 
 /* Gives finished builds to those that wait for them. Returns and logs the first failure. On the API's thread. */
 virga_result virga_builds_collect(virga_context *context);

@@ -35,7 +35,7 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
                                     VIRGA_MAX_FRAMES_IN_FLIGHT, def->frames_in_flight);
     if (!def->device_memory.alloc != !def->device_memory.free)
         return virga_wrong_argument(log, "context_def.device_memory: expected both alloc and free, or neither");
-    if ((uint32_t)def->pipeline_build_mode > VIRGA_PIPELINES_AS_JOBS)
+    if ((uint32_t)def->pipeline_build_mode > VIRGA_PIPELINES_ON_USE)
         return virga_wrong_argument(log, "context_def.pipeline_build_mode: there is no %d",
                                     (int)def->pipeline_build_mode);
     if ((def->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS) != (def->pipeline_jobs.run != NULL))

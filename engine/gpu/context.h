@@ -50,7 +50,7 @@ struct virga_context {
 
     /* Resources. */
     struct virga_resource *retired; /* see gpu/retire.h */
-    virga_result upload_failed;     /* result of the newest flush that failed, see virga_check_uploads */
+    virga_result recording_failed;  /* newest failed flush or build on use, see virga_recording_result */
     VkSampler nearest, linear;      /* clamped to the edge */
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */

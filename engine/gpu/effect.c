@@ -238,7 +238,7 @@ static virga_result init(virga_effect *effect)
     if (type->create)
         TRY(type->create(effect));
     TRY(create_passes(effect));
-    TRY(virga_check_uploads(effect->context));
+    TRY(virga_recording_result(effect->context));
 error:
     return result < 0 ? result : fitted;
 }

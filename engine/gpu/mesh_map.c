@@ -194,8 +194,8 @@ static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_m
                       const virga_map_view *view, const virga_occluder *mesh, const virga_pipeline **bound)
 {
     const virga_pipeline *pipeline = pipeline_for(map, mesh);
-    if (pipeline != *bound)
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    if (pipeline != *bound && !virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline))
+        return;
     *bound = pipeline;
     const virga_map_push push = describe_push(map, view, mesh);
     context->vk.CmdPushConstants(cmd, map->layout->layout, VIRGA_ALL_STAGES, 0, sizeof push, &push);

@@ -134,7 +134,7 @@ static virga_result use(virga_context *context, virga_built *built, virga_pipeli
     if (pipeline->waits) {
         pipeline->after = built->waiting;
         built->waiting = pipeline;
-        if (group)
+        if (group && context->pipeline_build_mode != VIRGA_PIPELINES_ON_USE)
             group->waiting++;
     }
     *created = pipeline;

@@ -11,7 +11,7 @@
 
 /* Pipelines that are used together: nothing that uses them is recorded until all of them are built. */
 typedef struct virga_pipeline_group {
-    uint32_t waiting;    /* pipelines still to be built */
+    uint32_t waiting;    /* pipelines still to be built; 0 with VIRGA_PIPELINES_ON_USE */
     virga_result failed; /* result of the first that failed; VIRGA_OK: none */
 } virga_pipeline_group;
 

@@ -1,6 +1,7 @@
 /* gpu/record.c - barriers and compute passes for all effects. */
 #include "gpu/record.h"
 
+#include "gpu/builds.h"
 #include "gpu/context.h"
 #include "gpu/pipelines.h"
 
@@ -60,6 +61,15 @@ void virga_bind(virga_context *context, VkCommandBuffer cmd, VkPipelineBindPoint
     context->vk.CmdBindDescriptorSets(cmd, point, bindings->layout, 0, 1, &set, offset_count, offsets);
 }
 
+bool virga_bind_pipeline(virga_context *context, VkCommandBuffer cmd, VkPipelineBindPoint point,
+                         const virga_pipeline *pipeline)
+{
+    const VkPipeline handle = virga_build_on_use(context, pipeline);
+    if (handle)
+        context->vk.CmdBindPipeline(cmd, point, handle);
+    return handle;
+}
+
 void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
 {
     virga_dispatch_2d(context, cmd, pipeline, groups, 1);
@@ -68,15 +78,15 @@ void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pip
 void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
                        uint32_t rows)
 {
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    context->vk.CmdDispatch(cmd, columns, rows, 1);
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline))
+        context->vk.CmdDispatch(cmd, columns, rows, 1);
 }
 
 void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
                              VkBuffer arguments, VkDeviceSize offset)
 {
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    context->vk.CmdDispatchIndirect(cmd, arguments, offset);
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline))
+        context->vk.CmdDispatchIndirect(cmd, arguments, offset);
 }
 
 void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
@@ -106,8 +116,8 @@ void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_
 void virga_draw_indexed_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
                                  VkBuffer arguments, VkDeviceSize offset)
 {
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    context->vk.CmdDrawIndexedIndirect(cmd, arguments, offset, 1, sizeof(VkDrawIndexedIndirectCommand));
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline))
+        context->vk.CmdDrawIndexedIndirect(cmd, arguments, offset, 1, sizeof(VkDrawIndexedIndirectCommand));
 }
 
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,

@@ -39,6 +39,10 @@ static inline uint32_t virga_groups_of(uint32_t items, uint32_t each)
     return (items + each - 1) / each;
 }
 
+/* False if the pipeline could not be built on use: then nothing may be drawn or dispatched with it. */
+bool virga_bind_pipeline(virga_context *context, VkCommandBuffer cmd, VkPipelineBindPoint point,
+                         const virga_pipeline *pipeline);
+
 /* A compute pass with this number of workgroups. */
 void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
 void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,

@@ -129,7 +129,7 @@ void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDe
         return;
     const VkResult result = context->vk.FlushMappedMemoryRanges(context->device, 1, &range);
     if (result != VK_SUCCESS)
-        context->upload_failed = virga_vulkan_failed(context, result, "vkFlushMappedMemoryRanges");
+        context->recording_failed = virga_vulkan_failed(context, result, "vkFlushMappedMemoryRanges");
 }
 
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
@@ -142,10 +142,10 @@ void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
         virga_vulkan_failed(context, result, "vkInvalidateMappedMemoryRanges"); /* statistics do not change */
 }
 
-virga_result virga_check_uploads(virga_context *context)
+virga_result virga_recording_result(virga_context *context)
 {
-    const virga_result result = context->upload_failed;
-    context->upload_failed = VIRGA_OK;
+    const virga_result result = context->recording_failed;
+    context->recording_failed = VIRGA_OK;
     return context->lost ? VIRGA_ERROR_DEVICE_LOST : result;
 }
 

@@ -46,11 +46,12 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
 bool virga_buffer_is_retired(const virga_context *context, VkBuffer buffer);
 
 /* These make the host's writes visible to the device, and the device's writes visible to the host. A failed flush is
- * logged, and the API call that flushed returns virga_check_uploads(). */
+ * logged, and the API call that flushed returns virga_recording_result(). */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
 
-/* The error of the flushes since the last call, or VIRGA_OK. After a device loss: VIRGA_ERROR_DEVICE_LOST. */
-virga_result virga_check_uploads(virga_context *context);
+/* The error of the flushes, and of the pipelines built on use, since the last call; or VIRGA_OK. After a device loss:
+ * VIRGA_ERROR_DEVICE_LOST. */
+virga_result virga_recording_result(virga_context *context);
 
 #endif

@@ -74,7 +74,7 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
         entries[i] = wave_entry(slopes, i);
     fill_texels(entries, ripples->upload->memory.block.mapped);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
-    TRY(virga_check_uploads(context));
+    TRY(virga_recording_result(context));
 error:
     virga_free(&context->heap, entries);
     virga_free(&context->heap, slopes);
@@ -126,7 +126,7 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
 void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples)
 {
     virga_offscreen_begin(context, cmd, ripples->map, 0);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline->pipeline);
-    context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline))
+        context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
     virga_offscreen_end(context, cmd);
 }

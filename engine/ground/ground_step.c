@@ -657,5 +657,5 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         measure(ground, cmd);
     write_maps(ground, cmd);
     virga_effect_copy_statistics(&ground->base, cmd, 0, ground->counts, 0, 0, sizeof(ground_readback));
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }

@@ -191,8 +191,8 @@ virga_result virga_ground_draw_wet(virga_ground *ground, VkCommandBuffer cmd, co
     virga_set_draw_area(context, cmd, view->viewport);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->wet_bindings, write_set(ground, index, view), 1,
                &offset);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(context, cmd, scope);
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }

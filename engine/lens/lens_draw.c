@@ -337,7 +337,7 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
                                  virga_effect_view_index(&lens->base) * sizeof(virga_lens_state_gpu),
                                  sizeof(virga_lens_state_gpu));
     virga_effect_set_view(&lens->base, set, offset, view, prepared);
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }
 
 /* ---- draw */
@@ -368,7 +368,7 @@ static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd
     const virga_pass_scope scope = virga_draw_begin(context, cmd, lens_draws[row].name);
     virga_set_draw_area(context, cmd, view->viewport);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, view->set, 1, &view->offset);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof part, &part);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(context, cmd, scope);

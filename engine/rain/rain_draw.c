@@ -190,7 +190,7 @@ virga_result rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_vie
                         .depth = has_depth,
                         .lens = has_depth && view->aperture_m > 0,
                         .glows = has_haze ? glowing_lamps(rain) : 0};
-    return virga_check_uploads(rain->base.context);
+    return virga_recording_result(rain->base.context);
 }
 
 /* ---- draw */
@@ -216,7 +216,7 @@ static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeli
 {
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     context->vk.CmdDraw(cmd, corners, count, 0, 0);
     virga_pass_end(context, cmd, scope);
 }
@@ -350,5 +350,5 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     draw_plain(rain, cmd, used[0], 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))
         draw_plain(rain, cmd, used[1], 6, glowing_lamps(rain), "rain.glow_alone");
-    return virga_check_uploads(rain->base.context);
+    return virga_recording_result(rain->base.context);
 }

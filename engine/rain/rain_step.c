@@ -323,7 +323,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain->ticks_of_step = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
-    const virga_result uploaded = virga_check_uploads(context);
+    const virga_result uploaded = virga_recording_result(context);
     return uploaded ? uploaded : dropped ? VIRGA_DEGRADED : VIRGA_OK;
 }
 

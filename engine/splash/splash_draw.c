@@ -121,7 +121,7 @@ virga_result splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const vir
                           .depth = view->depth.view != VK_NULL_HANDLE,
                           .style = splash->settings.style,
                           .line_px = splash->settings.min_width_px + 1}; /* as wide as quads, see sprite_corner.glsl */
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }
 
 /* ---- draw */

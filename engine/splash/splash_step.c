@@ -211,6 +211,6 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash_spray_record(splash, cmd, info);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_STEP, splash->state, 0,
                                  offsetof(splash_readback, state), sizeof(virga_splash_state_gpu));
-    const virga_result uploaded = virga_check_uploads(context);
+    const virga_result uploaded = virga_recording_result(context);
     return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

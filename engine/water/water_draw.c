@@ -184,8 +184,8 @@ static void record_sums(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet
     virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
     bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, picture->view_offset);
     for (int i = 0; i < 2; i++) {
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]->pipeline);
-        context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, i ? second : 0, 1, 0);
+        if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]))
+            context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, i ? second : 0, 1, 0);
     }
     virga_offscreen_end(context, cmd);
 }
@@ -278,7 +278,7 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
     picture->look[water->base.slot] =
         (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
         (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0) | (by_surfels ? VIRGA_WATER_LOOK_SURFELS : 0);
-    return virga_check_uploads(context);
+    return virga_recording_result(context);
 }
 
 /* ---- draw */
@@ -342,7 +342,7 @@ static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const vi
     const virga_effect_view *view = virga_effect_selected(&water->base);
     virga_set_draw_area(context, cmd, view->viewport);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used->pipeline);
+    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used);
     return VIRGA_OK;
 }
 

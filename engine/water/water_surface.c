@@ -271,7 +271,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
                                  sizeof(virga_particle_grid_gpu));
     virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),
                                  sizeof(virga_water_state_gpu));
-    const virga_result uploaded = virga_check_uploads(context);
+    const virga_result uploaded = virga_recording_result(context);
     if (uploaded || particles == info->count)
         return uploaded;
     virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,

@@ -136,7 +136,7 @@ static void fill_context_def(calls *c, uint32_t index, virga_context_def *out)
         out->pipeline_cache = blob;
         out->pipeline_cache_size = calls_below(c, sizeof blob + 1);
     }
-    out->pipeline_build_mode = (virga_pipeline_build_mode)calls_below(c, 3);
+    out->pipeline_build_mode = (virga_pipeline_build_mode)calls_below(c, 4);
     if (out->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS)
         out->pipeline_jobs.run = run_job;
     if (!c->device->honest && calls_once_in(c, 4))

@@ -187,6 +187,64 @@ static void layouts_outlive_a_running_job(void **state)
     watch.before_pipeline = NULL;
 }
 
+static void only_what_is_used_is_built(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context *context = make_context(f, VIRGA_PIPELINES_ON_USE, NULL);
+    virga_rain *rain = gpu_rain(context);
+    gpu_picture picture;
+    const virga_rain_step_info step = {.dt_s = 1.0 / 30, .camera_m = {0, 1.7, 0}};
+    uint32_t left;
+    gpu_picture_open(f, context, &picture);
+    REQUIRE(virga_rain_attach(rain, picture.target) == VIRGA_OK);
+    assert_int_equal(watch.made[WATCH_Pipeline], 0);
+    assert_int_equal(virga_rain_ready(rain), VIRGA_OK);
+    VkCommandBuffer cmd = gpu_begin_frame(f, context);
+    const virga_view view = gpu_view(&picture);
+    assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_OK);
+    const uint32_t stepped = watch.made[WATCH_Pipeline];
+    assert_true(stepped > 0);
+    assert_int_equal(virga_rain_prepare(rain, cmd, &view, virga_rain_time(rain)), VIRGA_OK);
+    host_target_begin_layer(&picture.images, cmd);
+    assert_int_equal(virga_rain_draw(rain, cmd, picture.target), VIRGA_OK);
+    host_target_end_layer(&picture.images, cmd);
+    gpu_submit(f);
+    gpu_wait(f);
+    const uint32_t used = watch.made[WATCH_Pipeline];
+    assert_true(used > stepped);
+    assert_int_equal(try_step(f, context, rain), VIRGA_OK);
+    assert_int_equal(watch.made[WATCH_Pipeline], used);
+    assert_int_equal(virga_pipelines_build(context, 1, &left), VIRGA_OK);
+    assert_int_equal(watch.made[WATCH_Pipeline], used + 1);
+    assert_true(left > 0);
+    assert_int_equal(virga_pipelines_build(context, UINT32_MAX, &left), VIRGA_OK);
+    assert_int_equal(left, 0);
+    virga_rain_destroy(&rain);
+    gpu_picture_close(f, &picture);
+    virga_context_destroy(&context);
+}
+
+/* The first pass of a step and the first pipeline of a draw can not be built. */
+static void a_failed_build_on_use_is_told_by_its_call(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context *context = make_context(f, VIRGA_PIPELINES_ON_USE, NULL);
+    virga_rain *broken = gpu_rain(context);
+    gpu_forget_log(f);
+    watch_fail(1, VK_ERROR_INITIALIZATION_FAILED);
+    assert_int_equal(try_step(f, context, broken), VIRGA_ERROR_VULKAN);
+    watch_fail(0, VK_SUCCESS);
+    assert_one_error(f, VIRGA_LOG_VULKAN_CALL);
+    assert_int_equal(virga_rain_ready(broken), VIRGA_ERROR_VULKAN);
+    assert_int_equal(try_step(f, context, broken), VIRGA_ERROR_VULKAN);
+    virga_rain *whole = gpu_rain(context);
+    assert_int_equal(try_step(f, context, whole), VIRGA_OK);
+    assert_int_equal(f->errors, 1); /* said once */
+    virga_rain_destroy(&broken);
+    virga_rain_destroy(&whole);
+    virga_context_destroy(&context);
+}
+
 static void failure_stays_with_its_effect(void **state)
 {
     gpu_fixture *f = *state;
@@ -213,7 +271,7 @@ static void definitions_are_checked(void **state)
     gpu_fixture *f = *state;
     virga_context_def def = gpu_context_def(f);
     virga_context *context = (virga_context *)f;
-    def.pipeline_build_mode = (virga_pipeline_build_mode)3;
+    def.pipeline_build_mode = (virga_pipeline_build_mode)4;
     gpu_forget_log(f);
     assert_int_equal(virga_context_create(&def, &context), VIRGA_ERROR_INVALID);
     assert_one_error(f, VIRGA_LOG_ARGUMENT);
@@ -233,6 +291,8 @@ int main(void)
         gpu_test(jobs_of_a_dead_effect_do_nothing),
         gpu_test(jobs_may_be_forgotten),
         gpu_test(layouts_outlive_a_running_job),
+        gpu_test(only_what_is_used_is_built),
+        gpu_test(a_failed_build_on_use_is_told_by_its_call),
         gpu_test(failure_stays_with_its_effect),
         gpu_test(definitions_are_checked),
     };

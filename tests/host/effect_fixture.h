@@ -136,6 +136,7 @@ static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, vir
     def.log_user = user;
     def.log_repeats = true;
     def.timings = timings;
+    def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE; /* most tests use few */
     virga_context *context = NULL;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
     return context;

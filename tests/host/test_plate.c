@@ -454,6 +454,7 @@ static bool open_rain(scene *s)
     def.device = s->base.device.device;
     def.queue_family = s->base.device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE;
     rain.max_drops = 1024;
     rain.occlusion_size = 0;
     return host_renderer_describe_mirror(s->renderer, &target) && virga_context_create(&def, &s->context) == VIRGA_OK &&

@@ -130,6 +130,7 @@ static inline virga_context_def world_context_def(const world_gpu *gpu)
     def.queue_family = gpu->family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.log = world_log;
+    def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE;
     def.timings = false; /* their barriers around each pass would hide missing ones */
     return def;
 }

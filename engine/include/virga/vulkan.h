@@ -149,6 +149,12 @@ typedef enum virga_pipeline_build_mode {
 
     /* Create and attach give each pipeline to the host's job system as a job, see virga_pipeline_jobs. */
     VIRGA_PIPELINES_AS_JOBS = 2,
+
+    /* Inside the recording call that first uses it. For programs in which a frame may take longer: offline renderers,
+     * tools, tests. They start faster, because most pipelines are for settings that a program never chooses. A pipeline
+     * that can not be built is an error of the call that needs it, and of all later calls of its effect.
+     * The render pass of a target must then live as long as the target. */
+    VIRGA_PIPELINES_ON_USE = 3,
 } virga_pipeline_build_mode;
 
 /* The host's job system.
@@ -289,7 +295,8 @@ VIRGA_API uint64_t virga_frames_lost(const virga_context *context);
 /* Builds pipelines that wait, and collects those that jobs have built.
  *
  * With VIRGA_PIPELINES_DEFERRED it builds up to `max_count` of them, oldest first, on this thread. With jobs it builds
- * none. *left (optional) gets the number of pipelines that are still missing.
+ * none. With VIRGA_PIPELINES_ON_USE it builds as many ahead of their use, and returns VIRGA_OK also if some are left.
+ * *remaining (optional) gets the number of pipelines that are still missing.
  *
  * While pipelines of an effect are missing, its recording calls record nothing and return VIRGA_NOT_READY. No simulated
  * time passes for it.

@@ -37,6 +37,7 @@ bool shot_open_device(shot *s, char *error, size_t error_size)
         s->device.anisotropy = 0;
     virga_context_def def = host_context_def(&s->device);
     def.frames_in_flight = HOST_FRAMES + 1;
+    def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE; /* a render uses a third of them or less */
     def.log = note_log;
     def.log_user = s;
     return shot_ok(s, virga_context_create(&def, &s->context), "creating a context on the device", error, error_size);
