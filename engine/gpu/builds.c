@@ -254,8 +254,8 @@ virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, u
         return VIRGA_ERROR_INVALID;
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    const bool on_use = context->pipeline_build_mode == VIRGA_PIPELINES_ON_USE;
-    if (on_use || context->pipeline_build_mode == VIRGA_PIPELINES_DEFERRED)
+    if (context->pipeline_build_mode == VIRGA_PIPELINES_DEFERRED ||
+        context->pipeline_build_mode == VIRGA_PIPELINES_ON_USE)
         run_some(context, max_count);
     const virga_result result = virga_builds_collect(context);
     uint32_t count = 0;
@@ -263,5 +263,5 @@ virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, u
         count += build->owner && is_wanted(build->owner);
     if (remaining)
         *remaining = count;
-    return result ? result : count && !on_use ? VIRGA_NOT_READY : VIRGA_OK;
+    return result ? result : count ? VIRGA_NOT_READY : VIRGA_OK;
 }

@@ -60,14 +60,15 @@ static virga_built *find_compute(const virga_context *context, const virga_compu
     return found;
 }
 
-/* A build that waits reads the host's render pass, which ends with the target that asked for it. So another target does
- * not wait for it. */
+/* A build that waits reads the host's render pass, which ends with the target that asked for it. So a target of another
+ * render pass does not wait for it. */
 static virga_built *find_graphics(const virga_context *context, const virga_graphics_def *def)
 {
     if (def->render_pass && !def->pass_class)
         return NULL;
     virga_built *found = context->first_built;
-    while (found && (!found->is_graphics || found->closed || (def->render_pass && !found->handle) ||
+    while (found && (!found->is_graphics || found->closed ||
+                     (!found->handle && found->graphics.render_pass != def->render_pass) ||
                      !is_same_graphics(&found->graphics, def)))
         found = found->next;
     return found;

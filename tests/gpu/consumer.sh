@@ -62,7 +62,7 @@ cp "$work/consumer.c" "$work/consumer.cpp"
 # ---- installed
 "$source/tests/gpu/compiled_shader.sh" "$build" --native-file >"$work/native.ini"
 quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib \
-    --buildtype release -Db_ndebug=true -Doptimization=1 \
+    --buildtype release -Db_ndebug=true -Doptimization=0 \
     -Dtools=disabled -Dtests=disabled
 quietly nice ninja -j2 -C "$work/build"
 quietly meson install -C "$work/build" --no-rebuild
@@ -143,7 +143,9 @@ quietly nice ninja -j2 -C "$work/host/build"
 expect "$("$work/host/build/consumer")" "$version 6.49" "consumer of a subproject"
 # CMake is nothing that a host of Meson, or who installs for one, must have: its package is left out then.
 mkdir "$work/tools"
-(IFS=:; for folder in $PATH; do [ ! -d "$folder" ] || ln -sn "$folder"/* "$work/tools" 2>/dev/null || true; done)
+# ccache's folder is left out: its links would find themselves in place of the compiler.
+clean_path=${PATH//\/usr\/lib\/ccache:/}
+(IFS=:; for folder in $clean_path; do [ ! -d "$folder" ] || ln -sn "$folder"/* "$work/tools" 2>/dev/null || true; done)
 rm -f "$work"/tools/cmake*
 PATH=$work/tools quietly meson setup "$work/host/no_cmake" "$work/host" --wrap-mode nofallback
 echo "installed: $installed"

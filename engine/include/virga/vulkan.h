@@ -295,11 +295,11 @@ VIRGA_API uint64_t virga_frames_lost(const virga_context *context);
 /* Builds pipelines that wait, and collects those that jobs have built.
  *
  * With VIRGA_PIPELINES_DEFERRED it builds up to `max_count` of them, oldest first, on this thread. With jobs it builds
- * none. With VIRGA_PIPELINES_ON_USE it builds as many ahead of their use, and returns VIRGA_OK also if some are left.
+ * none. With VIRGA_PIPELINES_ON_USE it builds as many ahead of their use; no call waits for those that are left.
  * *remaining (optional) gets the number of pipelines that are still missing.
  *
- * While pipelines of an effect are missing, its recording calls record nothing and return VIRGA_NOT_READY. No simulated
- * time passes for it.
+ * While pipelines of an effect are missing, its recording calls record nothing and return VIRGA_NOT_READY, and no
+ * simulated time passes for it; but with VIRGA_PIPELINES_ON_USE they build what they need.
  *
  * Returns VIRGA_OK if none is missing, VIRGA_NOT_READY if some are. Returns VULKAN, HOST_MEMORY, DEVICE_MEMORY or
  * DEVICE_LOST if one could not be built; its effect returns the same error from then on.
