@@ -3,7 +3,7 @@
 #define VIRGA_TESTS_STATE_RUN_H
 
 #include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
+#include "host_parts.h"
 
 enum { HEADER = 64 }; /* bytes of the head of a state */
 
@@ -26,13 +26,6 @@ static inline void set_weather(state_run *run)
     REQUIRE(virga_rain_set(virga_scene_rain(run->scene), &rain) == VIRGA_OK);
 }
 
-static inline void open_buffer(state_run *run, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
-                               host_buffer *buffer)
-{
-    REQUIRE(host_buffer_create_with(&run->f->gpu.device, data, size, usage, "buffer", buffer, run->f->gpu.error,
-                                    sizeof run->f->gpu.error));
-}
-
 /* A buffer that a state can be saved to, and loaded from. */
 static inline void open_blob(state_run *run, VkDeviceSize size, host_buffer *blob)
 {
@@ -52,9 +45,7 @@ static inline void open_scene(state_run *run, uint32_t seed)
     REQUIRE(virga_scene_create(run->context, &def, &run->scene) == VIRGA_OK);
     set_weather(run);
     REQUIRE(virga_scene_attach(run->scene, run->picture.target) == VIRGA_OK);
-    open_buffer(run, small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &run->vertices);
-    open_buffer(run, small_square_indices, sizeof small_square_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                &run->indices);
+    host_parts_square(&run->f->gpu, &run->vertices, &run->indices);
     open_blob(run, virga_scene_state_bytes(run->scene), &run->blob);
     gpu_forget_log(run->f);
 }

@@ -1,7 +1,7 @@
 /* test_scene_exchange.c - water of the ground becomes particles of a solver, and particles at rest become water of the
  * ground again. All of it is counted to the nanolitre, in lost frames too. */
 #include "../fluid/body_fixture.h"
-#include "../gpu/small_scene.h"
+#include "host_parts.h"
 
 #define SPACING_M   0.025     /* two along the side of a cell */
 #define PARTICLE_NL 15625001u /* of this spacing as a float */
@@ -41,10 +41,7 @@ static void open_buffers(void)
                                error, size));
     REQUIRE(host_buffer_create(device, 128 * 128 * sizeof(virga_cell_gpu), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                HOST_BUFFER_READBACK, "cells", &run.cells, error, size));
-    REQUIRE(host_buffer_create_with(device, small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                                    "vertices", &run.vertices, error, size));
-    REQUIRE(host_buffer_create_with(device, small_square_indices, sizeof small_square_indices,
-                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices", &run.indices, error, size));
+    host_parts_square(&run.gpu, &run.vertices, &run.indices);
 }
 
 static void open_fluid(uint32_t room)
@@ -212,13 +209,7 @@ static void frames(uint32_t count)
 static void lose_frame(void)
 {
     const VkCommandBuffer cmd = record_frame();
-    const host_device *device = &run.gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    assert_int_equal(virga_frame_dropped(run.context, device->frame), VIRGA_OK);
+    host_parts_throw_away(&run.gpu.device, run.context, cmd, true);
     effect_fixture_complete(&run.gpu, run.context);
 }
 

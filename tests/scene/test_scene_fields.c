@@ -1,8 +1,8 @@
 /* test_scene_fields.c - every field of settings, steps, views and panes of a running scene, one at a time, with valid
  * and with invalid numbers: its state stays finite, and its water adds up. */
 #include "../gpu/fields.h"
-#include "../gpu/small_scene.h"
 #include "../gpu/small_state.h"
+#include "host_parts.h"
 
 typedef struct fields_test {
     gpu_fixture *f;
@@ -20,18 +20,6 @@ typedef struct fields_test {
 
 #define SIZE(table) (sizeof(table) / sizeof(table)[0])
 
-static void open_buffers(fields_test *t)
-{
-    host_device *device = &t->f->gpu.device;
-    char *error = t->f->gpu.error;
-    REQUIRE(host_buffer_create_with(device, small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                                    "square", &t->vertices, error, sizeof t->f->gpu.error));
-    REQUIRE(host_buffer_create_with(device, small_square_indices, sizeof small_square_indices,
-                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "corners", &t->indices, error,
-                                    sizeof t->f->gpu.error));
-    t->mesh = small_occluder(t->vertices.buffer, t->indices.buffer);
-}
-
 static void open_test(fields_test *t, void **state)
 {
     virga_glass_def panes[SMALL_PANES];
@@ -40,7 +28,8 @@ static void open_test(fields_test *t, void **state)
     t->f = *state;
     t->context = gpu_context(t->f);
     gpu_picture_open(t->f, t->context, &t->picture);
-    open_buffers(t);
+    host_parts_square(&t->f->gpu, &t->vertices, &t->indices);
+    t->mesh = small_occluder(t->vertices.buffer, t->indices.buffer);
     REQUIRE(virga_scene_create(t->context, &def, &t->scene) == VIRGA_OK);
     REQUIRE(small_shapes_set(t->scene) == VIRGA_OK && small_weather_set(t->scene) == VIRGA_OK);
     REQUIRE(small_state_open(&t->state, &t->f->gpu.device, t->scene, t->f->gpu.error, sizeof t->f->gpu.error));

@@ -1,7 +1,7 @@
 /* test_scene_heals.c - each effect alone, in a host that throws frames away: the first one, any later one, several in a
  * row, reported or not. When the frames in flight are over, its picture is there again. */
 #include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
+#include "host_parts.h"
 #include "layered_pass.h"
 
 #include <virga/shared/particle.h>
@@ -293,34 +293,20 @@ static const struct kind {
 
 /* ---- a host */
 
-static virga_image give(healed *h, host_image *made, VkFormat format, const void *data)
-{
-    fixture *gpu = &h->f->gpu;
-    const host_image_def def = {
-        .format = format, .extent = {SIDE, SIDE, 1}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT, .name = "a scene's"};
-    REQUIRE(host_image_create_with(&gpu->device, &def, data, SIDE * SIDE * 4, 4, made, gpu->error, sizeof gpu->error));
-    return (virga_image){.image = made->image,
-                         .view = made->view,
-                         .format = format,
-                         .before = {.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-}
-
 /* The ground, a metre below the camera, and a sky over it; each pixel has a color of its own. */
 static void aim(healed *h)
 {
-    static float depth[SIDE][SIDE];
+    static float depth[SIDE * SIDE];
     static uint8_t color[SIDE][SIDE][4];
     const gpu_picture size = {.images = {.width = SIDE, .height = SIDE}};
     for (int y = 0; y < SIDE; y++)
-        for (int x = 0; x < SIDE; x++) {
-            const float down = 2 * ((float)y + 0.5f) / SIDE - 1;
-            depth[y][x] = down > 0.01f ? 1.001f - 0.1001f * down : 1;
+        for (int x = 0; x < SIDE; x++)
             memcpy(color[y][x], (uint8_t[4]){(uint8_t)(7 * x), (uint8_t)(7 * y), 90, 255}, 4);
-        }
+    host_parts_depth(SIDE, depth);
     h->view = gpu_view(&size);
     h->view.position_m[1] = h->view.open_position_m[1] = 1;
-    h->view.depth = give(h, &h->depth, VK_FORMAT_R32_SFLOAT, depth);
-    h->view.color = give(h, &h->color, VK_FORMAT_R8G8B8A8_UNORM, color);
+    h->view.depth = host_parts_picture(&h->f->gpu, VK_FORMAT_R32_SFLOAT, SIDE, depth, &h->depth);
+    h->view.color = host_parts_picture(&h->f->gpu, VK_FORMAT_R8G8B8A8_UNORM, SIDE, color, &h->color);
 }
 
 static void make_buffers(healed *h)
@@ -333,19 +319,8 @@ static void make_buffers(healed *h)
                                                     -1 + 0.05f * (float)(i / BALL / BALL)},
                                        .share = 1,
                                        .id = (uint32_t)i};
-    const struct {
-        const void *data;
-        size_t size;
-        VkBufferUsageFlags usage;
-        host_buffer *made;
-    } buffers[] = {
-        {small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &h->vertices},
-        {small_square_indices, sizeof small_square_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, &h->indices},
-        {ball, sizeof ball, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &h->particles},
-    };
-    for (int i = 0; i < 3; i++)
-        REQUIRE(host_buffer_create_with(&gpu->device, buffers[i].data, buffers[i].size, buffers[i].usage, "of a test",
-                                        buffers[i].made, gpu->error, sizeof gpu->error));
+    host_parts_square(gpu, &h->vertices, &h->indices);
+    host_parts_buffer(gpu, ball, sizeof ball, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &h->particles);
     REQUIRE(host_buffer_create(&gpu->device, (FRAMES + 1) * SLOT,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                HOST_BUFFER_UPLOAD, "spawns", &h->spawns, gpu->error, sizeof gpu->error));
@@ -388,19 +363,6 @@ static void close_host(healed *h)
         host_buffer_destroy(device, buffers[i]);
 }
 
-/* An empty command buffer goes to the queue in its place. */
-static void throw_away(healed *h, bool tell)
-{
-    host_device *device = &h->f->gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(h->cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(h->cmd, &begin) == VK_SUCCESS);
-    if (tell)
-        assert_int_equal(virga_frame_dropped(h->context, device->frame), VIRGA_OK);
-}
-
 /* `lost` has a bit for each frame that is thrown away. */
 static void run(healed *h, gpu_fixture *f, const struct kind *kind, uint32_t lost, bool tell)
 {
@@ -415,7 +377,7 @@ static void run(healed *h, gpu_fixture *f, const struct kind *kind, uint32_t los
             layered_pass_end(&h->pass, h->cmd);
         }
         if (lost & 1u << h->number)
-            throw_away(h, tell);
+            host_parts_throw_away(&f->gpu.device, h->context, h->cmd, tell);
         gpu_submit(f);
     }
     gpu_wait(f);

@@ -1,8 +1,8 @@
 /* test_scene_lost.c - frames whose command buffer the host throws away: rain, ground, splashes and panes are complete
  * again, and no water is counted that no frame moved. */
 #include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
 #include "../gpu/small_state.h"
+#include "host_parts.h"
 
 enum { FRAMES = 24 };
 
@@ -27,12 +27,7 @@ static void open_run(lost_run *run, gpu_fixture *f)
     REQUIRE(virga_scene_create(run->context, &def, &run->scene) == VIRGA_OK);
     REQUIRE(small_shapes_set(run->scene) == VIRGA_OK && small_weather_set(run->scene) == VIRGA_OK);
     REQUIRE(virga_scene_attach(run->scene, run->picture.target) == VIRGA_OK);
-    REQUIRE(host_buffer_create_with(&f->gpu.device, small_square, sizeof small_square,
-                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertices", &run->vertices, f->gpu.error,
-                                    sizeof f->gpu.error));
-    REQUIRE(host_buffer_create_with(&f->gpu.device, small_square_indices, sizeof small_square_indices,
-                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices", &run->indices, f->gpu.error,
-                                    sizeof f->gpu.error));
+    host_parts_square(&f->gpu, &run->vertices, &run->indices);
     REQUIRE(small_state_open(&run->state, &f->gpu.device, run->scene, f->gpu.error, sizeof f->gpu.error));
     gpu_forget_log(f);
 }
@@ -70,19 +65,6 @@ static void record(lost_run *run, VkCommandBuffer cmd, uint32_t number)
     small_state_record(&run->state, cmd, run->scene);
 }
 
-/* An empty command buffer goes to the queue in its place. */
-static void throw_away(lost_run *run, VkCommandBuffer cmd)
-{
-    host_device *device = &run->f->gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    if (run->tell)
-        assert_int_equal(virga_frame_dropped(run->context, device->frame), VIRGA_OK);
-}
-
 /* `lost` has a bit for each frame that is thrown away. */
 static void play(lost_run *run, uint32_t lost)
 {
@@ -90,7 +72,7 @@ static void play(lost_run *run, uint32_t lost)
         VkCommandBuffer cmd = gpu_begin_frame(run->f, run->context);
         record(run, cmd, number);
         if (lost & 1u << number)
-            throw_away(run, cmd);
+            host_parts_throw_away(&run->f->gpu.device, run->context, cmd, run->tell);
         gpu_submit(run->f);
         if (run->wait)
             gpu_wait(run->f);

@@ -66,33 +66,18 @@ static virga_target *make_target(stereo *s, const layered_pass *pass)
     return target;
 }
 
-/* Of texels of four bytes. */
-static virga_image give_image(stereo *s, host_image *made, VkFormat format, const void *data)
-{
-    fixture *gpu = &s->run.f->gpu;
-    const host_image_def def = {
-        .format = format, .extent = {SIDE, SIDE, 1}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT, .name = "a scene's"};
-    REQUIRE(host_image_create_with(&gpu->device, &def, data, SIDE * SIDE * 4, 4, made, gpu->error, sizeof gpu->error));
-    return (virga_image){.image = made->image,
-                         .view = made->view,
-                         .format = format,
-                         .before = {.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-}
-
 /* The ground, a metre below the cameras, and the sky; and a picture of one color. */
 static void give_scene(stereo *s)
 {
-    static float depth[SIDE][SIDE];
-    static uint8_t color[SIDE][SIDE][4];
+    static float depth[SIDE * SIDE];
+    static uint8_t color[SIDE * SIDE][4];
     static const uint8_t texel[4] = {200, 90, 40, 255};
-    for (int y = 0; y < SIDE; y++)
-        for (int x = 0; x < SIDE; x++) {
-            const float down = 2 * ((float)y + 0.5f) / SIDE - 1;
-            depth[y][x] = down > 0.01f ? 1.001f - 0.1001f * down : 1;
-            memcpy(color[y][x], texel, sizeof texel);
-        }
-    const virga_image seen = give_image(s, &s->depth, VK_FORMAT_R32_SFLOAT, depth);
-    const virga_image behind = give_image(s, &s->color, VK_FORMAT_R8G8B8A8_UNORM, color);
+    fixture *gpu = &s->run.f->gpu;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        memcpy(color[i], texel, sizeof texel);
+    host_parts_depth(SIDE, depth);
+    const virga_image seen = host_parts_picture(gpu, VK_FORMAT_R32_SFLOAT, SIDE, depth, &s->depth);
+    const virga_image behind = host_parts_picture(gpu, VK_FORMAT_R8G8B8A8_UNORM, SIDE, color, &s->color);
     for (int i = 0; i < EYES; i++) {
         s->run.views[i].depth = seen;
         s->run.views[i].color = behind;

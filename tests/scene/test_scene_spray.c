@@ -1,7 +1,7 @@
 /* test_scene_spray.c - spray of simulated water goes on living: its droplets fly, wet the ground, land on a pane, and
  * end where their particle falls back into the water. All of it is counted to the nanolitre, in lost frames too. */
-#include "../gpu/small_scene.h"
 #include "../host/effect_fixture.h"
+#include "host_parts.h"
 
 #include <virga/shared/random.h>
 
@@ -104,7 +104,6 @@ static void open_buffers(void)
 {
     virga_splash_buffer droplets;
     virga_water_leavers leavers;
-    char *error = run.gpu.error;
     virga_splash_droplets(virga_scene_splash(run.scene), &droplets, &run.max_droplets, NULL);
     virga_water_leavers_get(virga_scene_water(run.scene), &leavers);
     run.max_leavers = virga_default_water_def().max_spray;
@@ -113,12 +112,7 @@ static void open_buffers(void)
     buffer(droplets.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, &run.droplets);
     buffer(sizeof(virga_leavers_gpu) + 2 * run.max_leavers * sizeof(virga_leaver_gpu), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
            HOST_BUFFER_READBACK, &run.leavers);
-    REQUIRE(host_buffer_create_with(&run.gpu.device, small_square, sizeof small_square,
-                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertices", &run.vertices, error,
-                                    sizeof run.gpu.error));
-    REQUIRE(host_buffer_create_with(&run.gpu.device, small_square_indices, sizeof small_square_indices,
-                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices", &run.indices, error,
-                                    sizeof run.gpu.error));
+    host_parts_square(&run.gpu, &run.vertices, &run.indices);
 }
 
 static void open_run(const virga_water_settings *water, uint32_t max_droplets)
@@ -190,13 +184,7 @@ static void step_frame(double time_s)
 static void lose_frame(double time_s)
 {
     const VkCommandBuffer cmd = record_frame(time_s);
-    const host_device *device = &run.gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    assert_int_equal(virga_frame_dropped(run.context, device->frame), VIRGA_OK);
+    host_parts_throw_away(&run.gpu.device, run.context, cmd, true);
     effect_fixture_complete(&run.gpu, run.context);
 }
 

@@ -194,13 +194,9 @@ static void the_state_of_a_lost_frame_is_not_sealed(void **state)
     memset(run.blob.mapped, 0, run.blob.size);
     VkCommandBuffer cmd = gpu_begin_frame(run.f, run.context);
     host_device *device = &run.f->gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     record(&run, cmd, 1);
     save(&run, cmd);
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
+    host_parts_throw_away(device, run.context, cmd, false);
     gpu_submit(run.f);
     gpu_wait(run.f);
     assert_int_equal(virga_state_seal(run.blob.mapped, run.blob.size, device->frame, NULL), VIRGA_NOT_READY);

@@ -2,7 +2,7 @@
  * frame that the host threw away. Such lists are empty. Software Vulkan runs for ever if it finds the number of
  * workgroups in memory that nobody wrote (LVP_POISON_MEMORY). */
 #include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
+#include "host_parts.h"
 
 #include <virga/shared/particle.h>
 
@@ -206,19 +206,6 @@ static virga_rain_buffer step_rain(const host *h, virga_rain *rain)
     return hits;
 }
 
-/* An empty command buffer goes to the queue in its place. */
-static void throw_away(const host *h, bool tell)
-{
-    host_device *device = &h->f->gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(h->cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(h->cmd, &begin) == VK_SUCCESS);
-    if (tell)
-        assert_int_equal(virga_frame_dropped(h->context, device->frame), VIRGA_OK);
-}
-
 static void open_host(host *h, gpu_fixture *f)
 {
     static virga_particle_gpu block[PARTICLES];
@@ -231,20 +218,10 @@ static void open_host(host *h, gpu_fixture *f)
             .position = {0.05f * (float)(i % SIDE), 0.05f * (float)(i / SIDE % SIDE), 0.05f * (float)(i / SIDE / SIDE)},
             .share = 1,
             .id = (uint32_t)i};
-    const struct {
-        const void *data;
-        size_t size;
-        VkBufferUsageFlags usage;
-        host_buffer *made;
-    } buffers[] = {
-        {small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &h->vertices},
-        {small_square_indices, sizeof small_square_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, &h->indices},
-        {block, sizeof block, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &h->block},
-        {zeros, sizeof zeros, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, &h->empty},
-    };
-    for (int i = 0; i < 4; i++)
-        REQUIRE(host_buffer_create_with(&f->gpu.device, buffers[i].data, buffers[i].size, buffers[i].usage, "of a test",
-                                        buffers[i].made, f->gpu.error, sizeof f->gpu.error));
+    host_parts_square(&f->gpu, &h->vertices, &h->indices);
+    host_parts_buffer(&f->gpu, block, sizeof block, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &h->block);
+    host_parts_buffer(&f->gpu, zeros, sizeof zeros,
+                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, &h->empty);
     make(h, &h->writers);
     make(h, &h->readers);
     gpu_forget_log(f);
@@ -292,7 +269,7 @@ static void run(gpu_fixture *f, before way)
         h.cmd = gpu_begin_frame(f, h.context);
         hits = step_rain(&h, h.writers.rain);
         step_all(&h, &h.writers, &from);
-        throw_away(&h, way == DROPPED);
+        host_parts_throw_away(&h.f->gpu.device, h.context, h.cmd, way == DROPPED);
         gpu_submit(f);
     }
     h.cmd = gpu_begin_frame(f, h.context);
@@ -351,7 +328,7 @@ static void run_prepares(gpu_fixture *f, bool tell)
     const lists from = no_entries(&h);
     h.cmd = gpu_begin_frame(f, h.context);
     step_all(&h, &h.writers, &from);
-    throw_away(&h, tell);
+    host_parts_throw_away(&h.f->gpu.device, h.context, h.cmd, tell);
     gpu_submit(f);
     h.cmd = gpu_begin_frame(f, h.context);
     const virga_result glass = virga_glass_prepare(h.writers.glass, h.cmd, &view, &pose, 0);

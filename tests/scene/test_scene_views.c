@@ -79,12 +79,7 @@ static void views_after_a_lost_frame_are_whole(void **state)
     draw_each_alone(&run);
     VkCommandBuffer cmd = gpu_begin_frame(run.f, run.context);
     assert_int_equal(record(&run, cmd, 0, 0, VIEWS), VIRGA_OK);
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    host_device *device = &run.f->gpu.device;
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    assert_int_equal(virga_frame_dropped(run.context, device->frame), VIRGA_OK);
+    host_parts_throw_away(&run.f->gpu.device, run.context, cmd, true);
     assert_int_equal(virga_scene_draw_view(run.scene, cmd, run.target, 0), VIRGA_ERROR_INVALID);
     gpu_submit(run.f);
     assert_as_alone(draw(&run, 0, VIEWS, forward));

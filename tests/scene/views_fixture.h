@@ -3,7 +3,7 @@
 #define VIRGA_TESTS_VIEWS_FIXTURE_H
 
 #include "../gpu/gpu_fixture.h"
-#include "../gpu/small_scene.h"
+#include "host_parts.h"
 
 #include <virga/shared/particle.h>
 
@@ -36,13 +36,6 @@ static inline virga_scene_def define(uint32_t max_views, virga_glass_def panes[S
     return def;
 }
 
-static inline void make_buffer(gpu_fixture *f, const void *data, size_t size, VkBufferUsageFlags usage,
-                               host_buffer *made)
-{
-    REQUIRE(host_buffer_create_with(&f->gpu.device, data, size, usage, "of a test", made, f->gpu.error,
-                                    sizeof f->gpu.error));
-}
-
 /* A ball of water in front of all views. */
 static inline void make_particles(views_run *run)
 {
@@ -55,7 +48,7 @@ static inline void make_particles(views_run *run)
                                        .velocity = {2.5f - (float)(i % BALL), 2.5f - (float)(i / BALL % BALL),
                                                     2.5f - (float)(i / BALL / BALL)}, /* towards its middle */
                                        .id = (uint32_t)i};
-    make_buffer(run->f, ball, sizeof ball, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &run->particles);
+    host_parts_buffer(&run->f->gpu, ball, sizeof ball, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &run->particles);
 }
 
 /* Cameras side by side that look along -Z, each into its third of the picture. */
@@ -94,8 +87,7 @@ static inline void open_run(views_run *run, gpu_fixture *f, uint32_t max_views)
     virga_ground_settings ground = virga_default_ground_settings();
     ground.start_water_mm = 3;
     REQUIRE(virga_ground_set(virga_scene_ground(run->scene), &ground) == VIRGA_OK);
-    make_buffer(f, small_square, sizeof small_square, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &run->vertices);
-    make_buffer(f, small_square_indices, sizeof small_square_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, &run->indices);
+    host_parts_square(&f->gpu, &run->vertices, &run->indices);
     make_particles(run);
     aim(run);
     gpu_forget_log(f);
