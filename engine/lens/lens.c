@@ -88,9 +88,11 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 }
 
 static const virga_effect_buffer buffers[] = {
-    {"lens.state", AT(state), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_lens_state_gpu),
+    {"lens.state", AT(state), VIRGA_USE_STORAGE | VIRGA_USE_UNIFORM, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL, .per_view = true},
     {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
+    {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_TILE_KINDS * sizeof(virga_lens_list_gpu),
+     .entry = VIRGA_LENS_TILE_KINDS * sizeof(uint32_t), .count = COUNT_TILES},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };
 
@@ -122,7 +124,7 @@ static const virga_effect_image images[] = {
 /* The same bindings as in shaders/lens, where each file declares those it uses. */
 static const virga_binding_kind bindings[LENS_BINDINGS] = {
     RING(SEEN, view_ring, virga_lens_gpu),         /* 0 */
-    BUFFER_IN(SEEN, state),                        /* 1 */
+    BUFFER(state),                                 /* 1 */
     SAMPLED_IMAGE(COMPUTE, aperture),              /* 2 */
     STORAGE_IMAGE(aperture),                       /* 3 */
     [LENS_BIND_DEPTH] = {SAMPLED, SEEN},           /* 4 */
@@ -146,9 +148,11 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    SAMPLED_IMAGE(COMPUTE, spreads),        /* 25 */
-    {SAMPLED, COMPUTE},                     /* 26 color of the layer on the scene */
-    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE}, /* 27 */
+    SAMPLED_IMAGE(COMPUTE, spreads),                 /* 25 */
+    {SAMPLED, COMPUTE},                              /* 26 color of the layer on the scene */
+    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},          /* 27 */
+    BUFFER(lists),                                   /* 28 */
+    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -164,7 +168,7 @@ static const virga_effect_pass passes[] = {
     PASS(gather, .forms = LENS_GATHERS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),
-    PASS(combine, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
+    PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
     PASS(paper, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
     {"lens.circles", AT(circle), VIRGA_SPIRV_ROW(lens_circles_comp), .forms = VIRGA_LENS_LAYERS + 1},
 };

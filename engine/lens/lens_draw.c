@@ -252,6 +252,50 @@ static uint32_t depth_layers(const virga_lens_gpu *view)
     return layers;
 }
 
+/* A pass over one list of tiles; `first`: of its numbers of workgroups in the list's head. */
+static void over_list(virga_lens *lens, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t kind,
+                      size_t first)
+{
+    virga_dispatch_indirect(lens->base.context, cmd, pipeline, lens->lists->buffer,
+                            kind * sizeof(virga_lens_list_gpu) + first);
+}
+
+static void record_gather(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t form)
+{
+    virga_context *context = lens->base.context;
+    uint32_t kind = 0; /* the pass always has it pushed, though it reads it at half resolution only */
+    context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof kind, &kind);
+    if (!lens->def.half_resolution) {
+        over(lens, cmd, "lens.gather", lens->gather[form], view->columns, view->rows);
+        return;
+    }
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.gather");
+    for (; kind < VIRGA_LENS_TILE_KINDS; kind++) {
+        context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof kind, &kind);
+        over_list(lens, cmd, lens->gather[form | (kind == VIRGA_LENS_TILES_BLURRED ? 0 : VIRGA_LENS_NO_NEAR)], kind,
+                  offsetof(virga_lens_list_gpu, gather_x));
+    }
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void record_combine(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t forms = VIRGA_LENS_LAYERS + 1;
+    if (!lens->def.half_resolution || view->all_sharp) {
+        const uint32_t kind = view->all_sharp ? VIRGA_LENS_ALL_SHARP : VIRGA_LENS_TILES_BLURRED;
+        over(lens, cmd, "lens.combine", lens->combine[kind * forms + view->layers], view->width, view->height);
+        return;
+    }
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.combine");
+    for (uint32_t kind = 0; kind < VIRGA_LENS_TILE_KINDS; kind++)
+        over_list(lens, cmd, lens->combine[kind * forms + view->layers], kind,
+                  offsetof(virga_lens_list_gpu, combine_x));
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
 static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
     virga_context *context = lens->base.context;
@@ -279,8 +323,7 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
-    over(lens, cmd, "lens.gather", lens->gather[shaped | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0)], view->columns,
-         view->rows);
+    record_gather(lens, cmd, view, shaped | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0));
     record_layers(lens, cmd, view, shaped);
 }
 
@@ -288,7 +331,7 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
 {
     if (!view->all_sharp)
         record_fields(lens, cmd, view);
-    over(lens, cmd, "lens.combine", lens->combine[layers_form(view, view->all_sharp)], view->width, view->height);
+    record_combine(lens, cmd, view);
 }
 
 static void record_circles(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
@@ -324,7 +367,12 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
     virga_effect_begin_step(&lens->base, cmd);
     virga_effect_first_contents(&lens->base, cmd);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &offset);
-    virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
+    virga_dispatch(context, cmd, lens->focus, 1);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  READ_WRITE | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
+                      VK_ACCESS_TRANSFER_READ_BIT);
     if (lens->def.circles)
         record_circles(lens, cmd, &filled);
     else if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)

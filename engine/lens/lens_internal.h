@@ -24,12 +24,14 @@ enum {
     LENS_BIND_SPREADS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
     LENS_BIND_ON_SCENE,
     LENS_BIND_CIRCLES,
+    LENS_BIND_LISTS,
+    LENS_BIND_FOCUS,
     LENS_BINDINGS,
 };
 
 /* Pipelines of passes. */
 enum {
-    LENS_GATHERS = 4,     /* by VIRGA_LENS_SHAPED and _ON_SCENE */
+    LENS_GATHERS = 8,     /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
     LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
 };
 
@@ -47,7 +49,7 @@ struct virga_lens {
     float areas[VIRGA_LENS_SPREADS];
 
     VIRGA_PER_VIEW(virga_buffer, state);
-    virga_buffer *tiles, *reaches;
+    virga_buffer *tiles, *reaches, *lists;
     VIRGA_PER_VIEW(virga_image_2d, picture);
     VIRGA_PER_VIEW(virga_image_2d, fields);
     VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
@@ -56,8 +58,9 @@ struct virga_lens {
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach, *gather[LENS_GATHERS],
-        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS], *combine[2 * (VIRGA_LENS_LAYERS + 1)],
-        *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
+        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
+        *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)], *paper[2 * (VIRGA_LENS_LAYERS + 1)],
+        *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
 };
 

@@ -1,5 +1,6 @@
 // combine.comp - the picture: the scene and the layers over each other.
-// One invocation per pixel. Reads: color, depth, layers, fields. Writes: the picture.
+// At half resolution it works on one list of tiles after the other.
+// One invocation per pixel. Reads: color, depth, layers, fields, lists. Writes: the picture.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,9 +9,14 @@
 #include "layers.glsl"
 
 const uint LAYERS = OWN_FORM % (VIRGA_LENS_LAYERS + 1u);
-const bool ALL_SHARP = OWN_FORM > VIRGA_LENS_LAYERS;
+const uint KIND = OWN_FORM / (VIRGA_LENS_LAYERS + 1u);
+const bool ALL_SHARP = KIND == VIRGA_LENS_ALL_SHARP;
+const bool NO_FAR = KIND == VIRGA_LENS_TILES_SHARP;
+const bool NO_NEAR = KIND == VIRGA_LENS_TILES_FAR || NO_FAR;
+const bool LISTED = HALVED && !ALL_SHARP;
 
 #include "compose.glsl"
+#include "lists.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D picture;
@@ -40,8 +46,9 @@ void put(uint layer, inout composed sum)
 
 void main()
 {
-    const uvec2 at = gl_GlobalInvocationID.xy;
-    if (at.x >= view.width || at.y >= view.height)
+    const ivec2 first = LISTED ? listed_first(KIND, STEP * TILE_GROUPS) : ivec2(gl_WorkGroupID.xy) * 8;
+    const uvec2 at = uvec2(first) + gl_LocalInvocationID.xy;
+    if (first.x < 0 || at.x >= view.width || at.y >= view.height)
         return;
     look_at(at);
     composed sum;

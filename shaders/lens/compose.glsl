@@ -2,7 +2,8 @@
 //
 // At half resolution, what is nearly in focus comes from the pixels themselves, and what is not from the blurred
 // images; it changes over where the circle of confusion grows from half a pixel to two.
-// The includer has lens.glsl, pixels.glsl, layers.glsl and ALL_SHARP: nothing is out of focus.
+// The includer has lens.glsl, pixels.glsl, layers.glsl, and says what is left out:
+// ALL_SHARP: nothing is out of focus; NO_NEAR: nothing of the scene in front of the focus; NO_FAR: nothing of it.
 #include "scene_color.glsl"
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
@@ -38,14 +39,16 @@ void scene_at(out vec4 near, out vec4 far, out float near_px)
     near = vec4(0.0);
     far = sharp;
     near_px = 0.0;
-    if (ALL_SHARP)
+    if (ALL_SHARP || NO_FAR)
         return;
     const float radius = view.depth_given != 0u
                              ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP) : 0.0;
     const vec4 behind = field(VIRGA_LENS_FAR);
-    near = field(VIRGA_LENS_NEAR);
+    if (!NO_NEAR) {
+        near = field(VIRGA_LENS_NEAR);
+        near_px = behind.a * float(STEP);
+    }
     far = vec4(behind.rgb, 1.0);
-    near_px = behind.a * float(STEP);
     if (radius >= 0.0)
         far = mix(sharp, far, blurriness(radius));
     else

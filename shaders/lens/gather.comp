@@ -6,17 +6,25 @@
 // of its weights. Its fourth component is the near field's mean circle of confusion, which says what layers are in
 // front of it. Where the near field hides the far field, the samples around fill in what the near blur uncovers.
 //
+// At half resolution a texel in focus has no far field of its own to show, as its pixels are shown as they are. Pixels
+// behind it, at its edge, read between it and its neighbours. So it gets the far field that is behind it there, and
+// neither is a dark edge of it around what is in focus, nor a hole.
+//
 // A layer that lies on the scene, as haze does, is spread by the same weights.
-// One invocation per texel. Reads: samples, spreads, aperture, reaches, that layer. Writes: fields.
+// At half resolution it works on one list of tiles after the other.
+// One invocation per texel. Reads: samples, spreads, aperture, reaches, lists, that layer. Writes: fields.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
 #include "aperture.glsl"
 #include "pixels.glsl"
+#include "lists.glsl"
 
+const bool NEAR = (OWN_FORM & VIRGA_LENS_NO_NEAR) == 0u;
 const bool ON_SCENE = (OWN_FORM & VIRGA_LENS_ON_SCENE) != 0u; // a layer lies on the scene
 
+layout(push_constant) uniform List { uint kind; }; // at half resolution
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(set = 0, binding = 25) uniform sampler2D spreads;
@@ -84,15 +92,36 @@ field_sum gather_far(ivec2 texel, float own, float reach, barrel cut)
         for (int x = -columns; x <= columns; x++) {
             const ivec2 apart = ivec2(x, y), from = inside(texel + apart);
             const vec4 source = texelFetch(samples, from, 0);
-            const float radius = own < -POINT ? max(source.a, -own) : min(source.a, max(own, POINT));
-            const float weight = source.a >= -POINT ? covers(-apart, radius, cut) / disc_area(max(radius, POINT)) *
-                                                          nearness(apart, source.a, own)
-                                                    : 0.0;
+            float radius = NEAR && own < -POINT ? max(source.a, -own) : min(source.a, max(own, POINT));
+            float least = -POINT;
+            if (HALVED && abs(own) <= POINT)
+                radius = source.a, least = POINT;
+            float weight = source.a >= least ? covers(-apart, radius, cut) / disc_area(max(radius, POINT)) : 0.0;
+            if (NEAR)
+                weight *= nearness(apart, source.a, own);
             sum.scene += weight * vec4(source.rgb, 1.0);
             if (ON_SCENE)
                 sum.on += weight * on_scene_mean(from);
         }
     }
+    return sum;
+}
+
+// The far field of a texel, with weights.
+field_sum scene_behind(ivec2 texel, vec4 own, float reach, barrel cut)
+{
+    const bool in_focus = HALVED && abs(own.a) <= POINT;
+    // A texel behind the focus is covered by nothing wider than its own circle; behind a near one it may be any.
+    const float far_reach = own.a < -POINT ? max(reach, -own.a) : in_focus ? reach : max(own.a, POINT);
+    field_sum sum = gather_far(texel, own.a, far_reach, cut);
+    if (!in_focus)
+        return sum;
+    // From half a pixel on, its pixels are mixed with its own field, see compose.glsl.
+    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * POINT, POINT, abs(own.a)) : 1.0;
+    const float per_weight = sum.scene.a > 0.0 ? 1.0 / sum.scene.a : 0.0;
+    sum.scene = mix(sum.scene * per_weight, vec4(own.rgb, 1.0), share);
+    if (ON_SCENE)
+        sum.on = mix(sum.on * per_weight, on_scene_mean(texel), share);
     return sum;
 }
 
@@ -106,8 +135,9 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= int(view.columns) || texel.y >= int(view.rows))
+    const ivec2 first = HALVED ? listed_first(kind, TILE_GROUPS) : ivec2(gl_WorkGroupID.xy) * 8;
+    const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
+    if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
     const ivec2 tile = texel / VIRGA_LENS_TILE;
     const vec4 reach = reaches[tile.y * int(view.tile_columns) + tile.x];
@@ -117,11 +147,11 @@ void main()
         return;
     }
     const barrel cut = barrel_at(texel);
-    float circle_sum;
-    field_sum near = gather_near(texel, reach.x, cut, circle_sum);
-    // A texel behind the focus is covered by nothing wider than its own circle; behind a near one it may be any.
-    const float far_reach = own.a < -POINT ? max(reach.y, -own.a) : max(own.a, POINT);
-    const field_sum far = gather_far(texel, own.a, far_reach, cut);
+    float circle_sum = 0.0;
+    field_sum near = field_sum(vec4(0.0), vec4(0.0));
+    if (NEAR)
+        near = gather_near(texel, reach.x, cut, circle_sum);
+    const field_sum far = scene_behind(texel, own, reach.y, cut);
     const float near_circle = near.scene.a > 0.0 ? circle_sum / near.scene.a : 0.0;
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
     if (near.scene.a > 1.0 || far.scene.a == 0.0) {

@@ -21,20 +21,21 @@ const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
 const uint STEP = HALVED ? 2u : 1u; // as view.step
 
 layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
-#ifndef STATE_ACCESS
-#define STATE_ACCESS readonly
+#ifndef STATE_WRITTEN
+layout(scalar, set = 0, binding = 29) uniform State { virga_lens_state_gpu state; };
 #endif
-layout(std430, set = 0, binding = 1) STATE_ACCESS buffer State { virga_lens_state_gpu state; };
 
 // 1 / view depth (1/m) of a value of the depth buffer. 0 at infinity.
 float inverse_depth(float stored) { return max((view.depth_a + stored) / view.depth_b, 0.0); }
 
+#ifndef STATE_WRITTEN
 // The signed radius of the circle of confusion, in texels of the work image.
 float circle(float inv_m)
 {
     const float r = view.circle_px_m * (state.focus_inv_m - inv_m) / float(STEP);
     return clamp(r, -view.max_radius, view.max_radius);
 }
+#endif
 
 #define POINT 0.5 // texels: a smaller circle of confusion is sharp
 

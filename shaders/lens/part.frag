@@ -8,6 +8,8 @@
 #include "pixels.glsl"
 #include "layers.glsl"
 #define ALL_SHARP (view.all_sharp != 0u)
+#define NO_NEAR false
+#define NO_FAR false
 #include "compose.glsl"
 #include "gpu/encode.glsl"
 

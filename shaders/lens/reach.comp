@@ -1,10 +1,13 @@
 // reach.comp - how far each tile has to look for what reaches it: the largest circles of confusion, of each kind, of
-// all tiles from which such a disc can reach into it.
-// One invocation per tile. Reads: tiles. Writes: reaches.
+// all tiles from which such a disc can reach into it, or (at half resolution, where fields are read between texels)
+// into a texel beside it. At half resolution it also puts the tile into a list by what reaches it.
+// One invocation per tile. Reads: tiles. Writes: reaches, lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
+#define LISTS_ACCESS
+#include "lists.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 9) readonly buffer Tiles { vec4 tiles[]; };
@@ -12,6 +15,28 @@ layout(std430, set = 0, binding = 10) writeonly buffer Reaches { vec4 reaches[];
 
 // The distance (texels) from a pixel of one tile to one of another along an axis.
 float gap(int tiles_apart) { return float(max(abs(tiles_apart) - 1, 0) * VIRGA_LENS_TILE + min(abs(tiles_apart), 1)); }
+
+const float MARGIN = HALVED ? 2.5 : 1.0; // texels: half of one is the soft edge of a disc
+
+// Up to sharp_reach nothing of the fields is seen, see compose.glsl; up to POINT there is no near field.
+uint kind_of(vec4 reach)
+{
+    const float sharp_reach = 0.25; // texels: half a pixel
+    if (reach.x > POINT)
+        return VIRGA_LENS_TILES_BLURRED;
+    return max(reach.x, reach.y) > sharp_reach ? VIRGA_LENS_TILES_FAR : VIRGA_LENS_TILES_SHARP;
+}
+
+void add_to_list(uint kind, uint tile)
+{
+    const uint entry = atomicAdd(lists[kind].count, 1u);
+    const uint columns = min(entry + 1u, VIRGA_LENS_LIST_ROW), rows = entry / VIRGA_LENS_LIST_ROW + 1u;
+    listed[kind * view.tile_columns * view.tile_rows + entry] = tile;
+    atomicMax(lists[kind].gather_y, columns);
+    atomicMax(lists[kind].gather_z, rows);
+    atomicMax(lists[kind].combine_y, columns);
+    atomicMax(lists[kind].combine_z, rows);
+}
 
 void main()
 {
@@ -25,7 +50,9 @@ void main()
         for (int x = max(own.x - most, 0); x <= min(own.x + most, size.x - 1); x++) {
             const vec4 radius = tiles[y * size.x + x];
             const vec4 apart = vec4(length(vec2(gap(x - own.x), gap(y - own.y))));
-            reach = max(reach, radius * vec4(greaterThanEqual(radius + 1.0, apart)));
+            reach = max(reach, radius * vec4(greaterThanEqual(radius + MARGIN, apart)));
         }
     reaches[gl_GlobalInvocationID.x] = reach;
+    if (HALVED)
+        add_to_list(kind_of(reach), gl_GlobalInvocationID.x);
 }

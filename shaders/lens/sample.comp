@@ -1,6 +1,7 @@
 // sample.comp - the scene as samples: color and circle of confusion of each texel of the work image. At half resolution
-// a texel is the mean of those of its pixels that are as near as the nearest one: a mean over an edge would be a color
-// that is nowhere, at a depth that is nowhere.
+// a texel is the mean of those of its pixels that are about as near as the nearest one: a mean over an edge would be a
+// color that is nowhere, at a depth that is nowhere. In front of the focus it spreads as much light as it has such
+// pixels.
 // One invocation per texel. Reads: color, depth, state. Writes: samples, spreads.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -33,13 +34,15 @@ void main()
         nearest = min(nearest, radii[i]);
     }
     vec4 sum = vec4(0.0);
-    float radius = 0.0;
+    float radius = 0.0, before_focus = 0.0;
     for (uint i = 0u; i < pixels; i++) {
-        const float weight = max(1.0 - (radii[i] - nearest), 0.0);
+        const float weight = max(1.0 - (radii[i] - nearest) / max(abs(nearest), 1.0), 0.0);
         sum += weight * vec4(scene_color(pixel_of(texel, i)), 1.0);
         radius += weight * radii[i];
+        before_focus += radii[i] < -POINT ? 1.0 : 0.0;
     }
     radius /= sum.a;
+    const float share = HALVED && radius < -POINT ? before_focus / float(pixels) : 1.0;
     imageStore(samples, texel, vec4(sum.rgb / sum.a, radius));
-    imageStore(spreads, texel, vec4(spread(radius), radius, 0.0, 0.0));
+    imageStore(spreads, texel, vec4(share * spread(radius), radius, 0.0, 0.0));
 }

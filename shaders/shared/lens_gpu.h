@@ -8,6 +8,7 @@
 #define uint virga_uint
 typedef struct virga_lens_gpu virga_lens_gpu;
 typedef struct virga_lens_state_gpu virga_lens_state_gpu;
+typedef struct virga_lens_list_gpu virga_lens_list_gpu;
 #endif
 
 #define VIRGA_LENS_TILE       16  /* pixels of the work image along a tile's side */
@@ -25,6 +26,19 @@ typedef struct virga_lens_state_gpu virga_lens_state_gpu;
 #define VIRGA_LENS_SHAPED   1   /* gather, layer: an aperture that is no disc, or cat's eye */
 #define VIRGA_LENS_ON_SCENE 2   /* gather: a layer lies on the scene */
 #define VIRGA_LENS_DEPTHS   2   /* layer: it has a depth image */
+#define VIRGA_LENS_NO_NEAR  4   /* gather: nothing in front of the focus is out of focus */
+
+/* (half resolution) Tiles by what reaches them; there is a list of each kind. */
+#define VIRGA_LENS_TILES_BLURRED 0 /* circles of confusion from in front of the focus, and perhaps from behind it */
+#define VIRGA_LENS_TILES_FAR     1 /* only from behind it */
+#define VIRGA_LENS_TILES_SHARP   2 /* none */
+#define VIRGA_LENS_TILE_KINDS    3
+#define VIRGA_LENS_LIST_ROW      32768 /* tiles in a row of workgroups; a device has 65535 in one */
+
+/* What the combine pass is specialised for besides the number of layers: times VIRGA_LENS_LAYERS + 1. The first three
+ * are kinds of tiles. */
+#define VIRGA_LENS_ALL_SHARP     3 /* no layer is out of focus either, and there are no fields */
+#define VIRGA_LENS_COMBINE_FORMS 4
 
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
@@ -75,7 +89,20 @@ struct virga_lens_state_gpu {
     uint focused;      /* there was a view */
 };
 
+/* A list of tiles: its head. The tiles of all lists come after the heads, as many for each list as there are tiles. */
+struct virga_lens_list_gpu {
+    uint gather_x;  /* workgroups of gather: in a tile */
+    uint gather_y;  /* tiles in a row */
+    uint gather_z;  /* rows */
+    uint combine_x; /* the same of combine */
+    uint combine_y;
+    uint combine_z;
+    uint count; /* tiles */
+    uint padding;
+};
+
 #ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_lens_gpu, 156 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint

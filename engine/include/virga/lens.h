@@ -172,8 +172,8 @@ typedef struct virga_lens_layer {
  * VIRGA_ERROR_INVALID: the view has no color (with def.circles it needs none), its viewport is larger than the
  * definition's, or a layer is wrong.
  *
- * Cost: for each pixel of the work image, (2 r + 1)^2 samples, where r is the largest radius of blur that reaches its
- * tile of 16 x 16 pixels. */
+ * Cost: for each texel of the work image, about pi (r + 1)^2 samples, r the largest radius (texels) that reaches
+ * its tile of 16 x 16. Half resolution makes texels of 2 x 2 pixels, and skips what a tile does not need. */
 VIRGA_API virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
                                           const virga_lens_layer *layers, uint32_t layer_count, double time_s);
 

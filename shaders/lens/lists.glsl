@@ -1,0 +1,24 @@
+// lists.glsl - (half resolution) lists of tiles by what reaches them, so that passes do for each tile only what it
+// needs. The order in a list depends on the device, but each tile writes texels of its own, so no result does.
+#ifndef LISTS_ACCESS
+#define LISTS_ACCESS readonly
+#endif
+layout(std430, set = 0, binding = 28) LISTS_ACCESS buffer Lists
+{
+    virga_lens_list_gpu lists[VIRGA_LENS_TILE_KINDS];
+    uint listed[];
+};
+
+const uint TILE_GROUPS = VIRGA_LENS_TILE / 8u; // workgroups of 8 x 8 texels along a tile's side
+
+// The first texel or pixel of a workgroup of 8 x 8, in a pass over one list; `across`: such workgroups along a tile's
+// side. Negative where the last row of workgroups is longer than the list.
+ivec2 listed_first(uint kind, uint across)
+{
+    const uint entry = gl_WorkGroupID.z * VIRGA_LENS_LIST_ROW + gl_WorkGroupID.y;
+    if (entry >= lists[kind].count)
+        return ivec2(-1);
+    const uint tile = listed[kind * view.tile_columns * view.tile_rows + entry];
+    const uvec2 at = uvec2(tile % view.tile_columns, tile / view.tile_columns) * across;
+    return ivec2(at + uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across)) * 8;
+}
