@@ -239,7 +239,13 @@ typedef struct fill_cost {
     double waited, worked; /* ms, as in frame_times */
 } fill_cost;
 
-#define FILL_BYTES 16.0 /* per pixel: the target of measure_fill has floats */
+/* What a copy of the same pictures costs: the pass that puts the layer over the scene where all is in focus. It reads
+ * each picture that the lens is given once, and writes the picture once. A host without a lens has that pass. */
+typedef struct copy_cost {
+    double worked; /* ms, as in frame_times; 0: not known yet */
+} copy_cost;
+
+#define COPY_BYTES (16 + 16 + 8.0) /* per pixel: color and layer of this bench are floats, the picture half floats */
 
 /* Texels that a gather reads for one of the work image: a disc of them, see row_reach in shaders/lens/aperture.glsl. */
 static double texels_of_disc(double radius)
@@ -250,25 +256,56 @@ static double texels_of_disc(double radius)
     return sum;
 }
 
-/* A model, not a measurement: bytes that the passes of the physical style read and write for each pixel, if each texel
- * comes from memory once for each time that a pass asks for it. Color and layer of this bench have 16 bytes, depth 4,
- * samples and spreads 16, a field and the picture 8. All of the scene has the largest blur; the layer is sharp. */
-static double model_bytes(const lens_case *row, const pictures *p)
+/* A model, not a measurement: bytes that the passes of the physical style move from and to memory for each pixel. A
+ * pass moves each texel that it reads once, as neighbours find it in a cache: a tile's discs of 20 texels are 56 x 56
+ * samples, which are 50 kB. Depth has 4 bytes, samples and spreads 16, a field 8. All of the scene is blurred and
+ * behind the focus; the layer is sharp. At full resolution passes read both fields and the spreads. */
+static double model_bytes(const lens_case *row)
 {
     const double texels = row->half_resolution ? 0.25 : 1; /* of the work image, per pixel */
-    const double ends = 16 + 16 + 8;                       /* combine: color and layer, and the picture */
+    const double near = row->half_resolution ? 0 : 1;      /* half resolution leaves out what no near tile needs */
     if (row->radius_share <= 0)
-        return ends;
+        return COPY_BYTES;
     const double sample = 16 + 4 + texels * (16 + 16), tiles = texels * 16;
-    const double reach = texels_of_disc(row->radius_share * p->height * sqrt(texels));
-    return sample + tiles + texels * (16 * (1 + reach) + 2 * 8) + ends + 4 + texels * 2 * 8;
+    const double gather = texels * (16 + near * 16 + 2 * 8), combine = COPY_BYTES + 4 + texels * (8 + near * 8);
+    return sample + tiles + gather + combine;
 }
 
-static bool measure(bench *b, const lens_case *row, const pictures *p, const fill_cost *fill)
+static const char *const pass_names[] = {"sample", "tiles", "gather", "layers", "combine"};
+#define PASSES (sizeof pass_names / sizeof *pass_names)
+
+/* The passes' own times: the smallest, as other programs on the machine only make them longer. */
+static void print_passes(double times[PASSES][BENCH_RUNS], size_t runs)
+{
+    printf("  %-16s ", "");
+    for (size_t i = 0; i < PASSES; i++) {
+        double ms = times[i][0];
+        for (size_t run = 1; run < runs; run++)
+            ms = fmin(ms, times[i][run]);
+        if (ms > 0)
+            printf(" %s %.2f", pass_names[i], ms);
+    }
+    printf(" ms\n");
+}
+
+static void print_costs(const lens_case *row, const pictures *p, double worked, copy_cost *copy)
+{
+    const double texels = row->half_resolution ? 0.25 : 1;
+    if (row->radius_share <= 0 && copy->worked <= 0)
+        copy->worked = worked;
+    printf("  %-16s %10.1f x a copy of the same, processors; by a model %.0f bytes a pixel, %.1f x a copy", "",
+           worked / copy->worked, model_bytes(row), model_bytes(row) / COPY_BYTES);
+    if (row->radius_share > 0)
+        printf(", and %.0f texels of discs", texels * texels_of_disc(row->radius_share * p->height * sqrt(texels)));
+    printf("\n");
+}
+
+static bool measure(bench *b, const lens_case *row, const pictures *p, const fill_cost *fill, copy_cost *copy)
 {
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens = NULL;
     frame_times times, empty;
+    double passes[PASSES][BENCH_RUNS];
     def.max_width = p->width;
     def.max_height = p->height;
     def.half_resolution = row->half_resolution;
@@ -279,6 +316,11 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     size_t runs = 0;
     while (good && runs < BENCH_RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
         good = time_frame(b, NULL, p, &empty, runs) && time_frame(b, lens, p, &times, runs);
+        for (size_t i = 0; i < PASSES; i++) {
+            char name[32];
+            snprintf(name, sizeof name, "lens.%s", pass_names[i]);
+            passes[i][runs] = bench_pass_ms(b, name);
+        }
         runs++;
     }
     virga_lens_destroy(&lens);
@@ -289,8 +331,8 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     printf("  %-16s %10.3f ms %9.1f frames/s %8.1f x a fill, processors %10.3f ms %8.1f x a fill, median of %zu\n",
            row->what, ms, 1e3 / ms, ms / fill->waited, worked, worked / fill->worked, runs);
     if (row->style == VIRGA_LENS_STYLE_PHYSICAL)
-        printf("  %-16s %10.0f bytes a pixel by a model %8.1f x a fill\n", "", model_bytes(row, p),
-               model_bytes(row, p) / FILL_BYTES);
+        print_costs(row, p, worked, copy);
+    print_passes(passes, runs);
     fflush(stdout);
     return true;
 }
@@ -320,11 +362,12 @@ static bool run(bench *b, const options *parsed)
     for (size_t i = 0; good && i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++) {
         pictures p = {.width = sizes[i][0], .height = sizes[i][1]};
         fill_cost fill;
+        copy_cost copy = {0};
         good = open_pictures(b, &p) && measure_fill(b, &p, &fill);
         if (good)
             printf("%u x %u, a fill takes %.3f ms, processors %.3f ms\n", p.width, p.height, fill.waited, fill.worked);
         for (size_t k = 0; good && k < sizeof cases / sizeof cases[0] && !interrupt_requested(); k++)
-            good = measure(b, &cases[k], &p, &fill);
+            good = measure(b, &cases[k], &p, &fill, &copy);
         close_pictures(b, &p);
     }
     return good;
