@@ -126,7 +126,7 @@ static inline void shot_plate(shot *s, const float *pixels)
 static inline void shot_aim(shot *s, const double at[3], const double to[3], double fov_deg)
 {
     const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
-    const host_camera_path path = {&key, 1, fov_deg, 0.01, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = fov_deg, .near_m = 0.01, .far_m = 100};
     host_camera_at(&path, 0, s->picture.width, s->picture.height, NULL, &s->camera);
 }
 

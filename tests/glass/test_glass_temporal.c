@@ -253,7 +253,7 @@ static void camera_of(uint32_t frame, const float jitter_px[2], host_camera *cam
 {
     const double yaw = yaw_of(frame);
     const host_camera_key key = {0, {0, 0, 0}, {sin(yaw), 0, -cos(yaw)}, 0, false};
-    const host_camera_path path = {&key, 1, 32, 0.01, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 32, .near_m = 0.01, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, jitter_px, camera);
 }
 

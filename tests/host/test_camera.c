@@ -19,7 +19,7 @@ static const host_camera_key keys[] = {
     {.time_s = 4.0, .position_m = {100, 1, 0}, .look_at_m = {100, 1, -5}, .cut = true},
     {.time_s = 6.0, .position_m = {110, 1, 0}, .look_at_m = {110, 1, -5}},
 };
-static const host_camera_path path = {keys, 5, 50.0, 0.1, 500.0};
+static const host_camera_path path = {.keys = keys, .count = 5, .fov_deg = 50.0, .near_m = 0.1, .far_m = 500.0};
 
 static void path_at(double time_s, double out[3])
 {
@@ -81,18 +81,18 @@ static void bad_paths(void **state)
     (void)state;
     char error[256];
     host_camera_key bad[2] = {keys[0], keys[0]};
-    host_camera_path p = {bad, 2, 50.0, 0.1, 500.0};
+    host_camera_path p = {.keys = bad, .count = 2, .fov_deg = 50.0, .near_m = 0.1, .far_m = 500.0};
     assert_false(host_camera_path_check(&p, error, sizeof error));
     assert_non_null(strstr(error, "key 1"));
     bad[1].time_s = 2.0;
     assert_true(host_camera_path_check(&p, error, sizeof error));
     bad[1].position_m[2] = NAN;
     assert_false(host_camera_path_check(&p, error, sizeof error));
-    p = (host_camera_path){keys, 5, 190.0, 0.1, 500.0};
+    p = (host_camera_path){.keys = keys, .count = 5, .fov_deg = 190.0, .near_m = 0.1, .far_m = 500.0};
     assert_false(host_camera_path_check(&p, error, sizeof error));
-    p = (host_camera_path){keys, 5, 50.0, 1.0, 0.5};
+    p = (host_camera_path){.keys = keys, .count = 5, .fov_deg = 50.0, .near_m = 1.0, .far_m = 0.5};
     assert_false(host_camera_path_check(&p, error, sizeof error));
-    p = (host_camera_path){keys, 0, 50.0, 0.1, 500.0};
+    p = (host_camera_path){.keys = keys, .count = 0, .fov_deg = 50.0, .near_m = 0.1, .far_m = 500.0};
     assert_false(host_camera_path_check(&p, error, sizeof error));
 }
 
@@ -124,6 +124,80 @@ static void projection(void **state)
     project(&camera, (const float[3]){0, 1, -500}, out);
     assert_float_equal(out[2], 1.0, 1e-5);
     assert_true(isinf(host_camera_distance(&camera, 1.0f)));
+}
+
+/* A camera that was measured: fx X / Z + cx, and below fy, in a picture of its size and in one half as large. In a
+ * window of another aspect the height is the same, and so are the shapes. */
+static void a_calibrated_camera_projects_by_its_numbers(void **state)
+{
+    (void)state;
+    const float points[3][3] = {{0.5f, 1.25f, -2}, {-3, 4, -9}, {7, 0.5f, -20}}; /* the camera is at y = 1 */
+    host_camera_path own = path;
+    own.calibration = (host_camera_calibration){{1242, 376}, {721.5, 702.25}, {609.6, 172.9}};
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < 3; i++) {
+            const double x = (double)points[i][0], down = 1 - (double)points[i][1], ahead = -(double)points[i][2];
+            const double size = half ? 0.5 : 1;
+            const float jitter[2] = {0.25f, -0.5f};
+            host_camera camera;
+            float out[3];
+            host_camera_at(&own, 0, half ? 621 : 1242, half ? 188 : 376, jitter, &camera);
+            project(&camera, points[i], out);
+            assert_float_equal(out[0], size * (721.5 * x / ahead + 609.6) + 0.25, 1e-3);
+            assert_float_equal(out[1], size * (702.25 * down / ahead + 172.9) - 0.5, 1e-3);
+            host_camera_at(&own, 0, 188, 188, NULL, &camera);
+            project(&camera, points[i], out);
+            assert_float_equal(out[0], 0.5 * (721.5 * x / ahead + 609.6 - 621) + 94, 1e-3);
+            assert_float_equal(out[1], 0.5 * (702.25 * down / ahead + 172.9), 1e-3);
+        }
+    assert_true(host_camera_same_aspect(own.calibration.size_px, 621, 188));
+    assert_true(host_camera_same_aspect(own.calibration.size_px, 320, 97));
+    assert_false(host_camera_same_aspect(own.calibration.size_px, 320, 99));
+    assert_false(host_camera_same_aspect(own.calibration.size_px, 188, 188));
+}
+
+/* The camera that a calibration in the middle describes is that of the angle of view. */
+static void a_calibration_can_be_an_angle_of_view(void **state)
+{
+    (void)state;
+    host_camera a, b;
+    host_camera_path own = path;
+    const double focal = 45 / tan(25 * 3.14159265358979323846 / 180);
+    own.calibration = (host_camera_calibration){{160, 90}, {focal, focal}, {80, 45}};
+    host_camera_at(&path, 0.5, 320, 180, NULL, &a);
+    host_camera_at(&own, 0.5, 320, 180, NULL, &b);
+    for (int i = 0; i < 16; i++)
+        assert_float_equal(a.clip_from_view[i], b.clip_from_view[i], 1e-6);
+}
+
+/* A roll of 50 degrees a key, through more than a turn: from axes to keys, and at each key the same axes. */
+static void keys_of_axes_roll_without_jumps(void **state)
+{
+    (void)state;
+    enum { COUNT = 12 };
+    const double pi = 3.14159265358979323846;
+    host_camera_key made[COUNT];
+    double axes[COUNT][3][3];
+    for (int i = 0; i < COUNT; i++) {
+        const double turn = 0.3 * i, roll = i * 50 * pi / 180, c = cos(roll), s = sin(roll);
+        const double level[3][3] = {{cos(turn), 0, -sin(turn)}, {0, 1, 0}, {sin(turn), 0, cos(turn)}};
+        for (int k = 0; k < 3; k++) {
+            axes[i][0][k] = c * level[0][k] - s * level[1][k];
+            axes[i][1][k] = s * level[0][k] + c * level[1][k];
+            axes[i][2][k] = level[2][k];
+        }
+        made[i] = host_camera_key_of_axes(0.1 * i, (const double[3]){i, 2, 0.5 * i}, axes[i]);
+    }
+    host_camera_unwrap_rolls(made, COUNT);
+    const host_camera_path own = {.keys = made, .count = COUNT, .fov_deg = 50, .near_m = 0.1, .far_m = 100};
+    for (int i = 0; i < COUNT; i++) {
+        host_camera camera;
+        host_camera_at(&own, 0.1 * i, 160, 90, NULL, &camera);
+        assert_float_equal(made[i].roll_deg, 50 * i, 1e-3);
+        for (int axis = 0; axis < 3; axis++)
+            for (int k = 0; k < 3; k++)
+                assert_float_equal(camera.view_from_world[4 * k + axis], axes[i][axis][k], 1e-6);
+    }
 }
 
 /* From a point of a lens, what is in focus at s stays. What is at d moves by lens (1/s - 1/d): right is right,
@@ -213,6 +287,9 @@ int main(void)
         cmocka_unit_test(cut_holds_and_jumps),
         cmocka_unit_test(bad_paths),
         cmocka_unit_test(projection),
+        cmocka_unit_test(a_calibrated_camera_projects_by_its_numbers),
+        cmocka_unit_test(a_calibration_can_be_an_angle_of_view),
+        cmocka_unit_test(keys_of_axes_roll_without_jumps),
         cmocka_unit_test(a_point_of_the_lens_keeps_what_is_in_focus),
         cmocka_unit_test(jitter_is_balanced),
         cmocka_unit_test(irradiance),

@@ -22,7 +22,7 @@ static const host_camera_key keys[2] = {
     {.time_s = 0.0, .position_m = {0.0, 1.5, 8.0}, .look_at_m = {0.0, 1.5, 0.0}},
     {.time_s = 1.0, .position_m = {2.4, 1.5, 8.0}, .look_at_m = {2.4, 1.5, 0.0}},
 };
-static const host_camera_path path = {keys, 2, 60.0, 0.1, 100.0};
+static const host_camera_path path = {.keys = keys, .count = 2, .fov_deg = 60.0, .near_m = 0.1, .far_m = 100.0};
 
 enum { CELLS = 64 };
 

@@ -175,7 +175,8 @@ static inline void world_camera(double time_s, const float jitter_px[2], host_ca
 {
     const host_camera_key keys[2] = {{0, {0, 0.9, 0}, {0, 0.45, -3}, 0, false},
                                      {2, {0.5, 0.9, 0}, {0.6, 0.45, -3}, 0, false}};
-    const host_camera_path path = {keys, 2, 55, WORLD_NEAR_M, WORLD_FAR_M};
+    const host_camera_path path = {
+        .keys = keys, .count = 2, .fov_deg = 55, .near_m = WORLD_NEAR_M, .far_m = WORLD_FAR_M};
     host_camera_at(&path, time_s, WORLD_WIDTH, WORLD_HEIGHT, jitter_px, camera);
 }
 

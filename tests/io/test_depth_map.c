@@ -131,7 +131,7 @@ static void disparity_is_cityscapes(void **state)
 static void rays_are_longer_than_the_axis(void **state)
 {
     (void)state;
-    const depth_map_def def = {.kind = DEPTH_MAP_RAY, .view_height = 0.75};
+    const depth_map_def def = {.kind = DEPTH_MAP_RAY, .focal = {0.8, 4.0 / 3}, .center = {0.5, 0.5}};
     float along[PIXELS];
     for (int i = 0; i < PIXELS; i++) {
         const double x = 0.25 * (i % WIDTH - 2), y = 0.25 * (i / WIDTH - 1);
@@ -141,10 +141,24 @@ static void rays_are_longer_than_the_axis(void **state)
     expect("a.npy", &def, 1e-6);
 }
 
+/* As of a picture that was cut at its left and above: pixels a quarter wide and an eighth high, the axis goes through
+ * the middle of the first. */
+static void rays_start_at_the_axis_of_the_camera(void **state)
+{
+    (void)state;
+    const depth_map_def def = {.kind = DEPTH_MAP_RAY, .focal = {0.8, 8.0 / 3}, .center = {0.1, 1.0 / 6}};
+    float along[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        along[i] = (float)(metres_of(i) * sqrt(1 + pow(0.25 * (i % WIDTH), 2) + pow(0.125 * (double)(i / WIDTH), 2)));
+    write_npy("a.npy", "<f4", "False", "(3, 5)", along, sizeof along);
+    expect("a.npy", &def, 1e-6);
+}
+
 static void what_is_not_known_is_zero(void **state)
 {
     (void)state;
-    const depth_map_def axis = {.kind = DEPTH_MAP_AXIS}, disparity = {DEPTH_MAP_DISPARITY, 0, 0.2, 1000, 0};
+    const depth_map_def axis = {.kind = DEPTH_MAP_AXIS},
+                        disparity = {DEPTH_MAP_DISPARITY, 0, 0.2, 1000, {0, 0}, {0, 0}};
     const float values[PIXELS] = {0, -3, NAN, INFINITY, -INFINITY, 1e30f};
     uint32_t width, height;
     float *metres;
@@ -232,6 +246,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(whole_numbers_are_kittis, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(disparity_is_cityscapes, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(rays_are_longer_than_the_axis, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(rays_start_at_the_axis_of_the_camera, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_not_known_is_zero, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(wrong_files_are_refused, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(damage_never_crashes, make_folder, remove_folder),

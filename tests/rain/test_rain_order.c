@@ -76,7 +76,7 @@ static void prepare_shot(shot *s, float rate_mm_h)
     s->f.settings.streak_gain = 4;
     apply_settings(s);
     const host_camera_key key = {0, {0, 1.7, 0}, {0, 1.7, -5}, 0, false};
-    const host_camera_path path = {&key, 1, 70, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 70, .near_m = 0.02, .far_m = 100};
     host_camera_at(&path, 0, 640, 480, NULL, &s->camera);
     s->open = s->camera;
     draw_frame(s, 0.2);

@@ -56,7 +56,7 @@ static void close_shot(shot *s)
 static void aim(host_camera *camera, double x, double z, double to_x, const float jitter_px[2])
 {
     const host_camera_key key = {0, {x, 1.5, z}, {to_x, 1.5, z - 5}, 0, false};
-    const host_camera_path path = {&key, 1, 45, 0.05, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 45, .near_m = 0.05, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, jitter_px, camera);
 }
 

@@ -193,7 +193,7 @@ static void transition_0_is_at_once(void **state)
 static double haze_of_a_prepare(rain_fixture *f)
 {
     const host_camera_key key = {0, {0, 1.7, 0}, {0, 1.7, -5}, 0, false};
-    const host_camera_path path = {&key, 1, 40, 0.1, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.1, .far_m = 100};
     host_camera camera;
     virga_view view = virga_default_view();
     host_camera_at(&path, 0, 160, 120, NULL, &camera);

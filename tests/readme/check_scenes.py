@@ -32,6 +32,10 @@ with tempfile.TemporaryDirectory() as work:
                 for number in (0, 20):
                     with open(f"{work}/scenes/{files % number}", "w") as file:
                         file.write(NO_PARTICLES)
+            # Poses of a camera too: one stands for them.
+            for poses in re.findall(r"file: (\S+\.txt)", block):
+                with open(f"{work}/scenes/{poses}", "w") as file:
+                    file.write("1 0 0 0 0 1 0 0 0 0 1 0\n")
             with open(scene, "w") as file:
                 if not block.startswith("virga:"):
                     file.write(VERSION + ("" if block.startswith("camera:") else CAMERA))

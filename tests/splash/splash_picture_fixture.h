@@ -97,7 +97,7 @@ static inline void close_shot(shot *s)
 static inline void aim(shot *s, const double at[3], const double to[3])
 {
     const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
-    const host_camera_path path = {&key, 1, FOV_DEG, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.02, .far_m = 100};
     host_camera_at(&path, 0, s->picture.width, s->picture.height, NULL, &s->camera);
 }
 

@@ -57,7 +57,7 @@ static void close_shot(shot *s)
 static void aim(host_camera *camera, const double at[3], const double to[3], double fov_deg, const float jitter_px[2])
 {
     const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
-    const host_camera_path path = {&key, 1, fov_deg, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = fov_deg, .near_m = 0.02, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, jitter_px, camera);
 }
 

@@ -72,6 +72,29 @@ static void it_goes_on_mirrored(void **state)
     expect(-80, 12, 0, 0, 1);
 }
 
+/* The axis of the camera meets the picture at its left edge and a quarter from above, so that all of it is to the right
+ * of where the camera looks. 64 pixels at a focal length of 64 are 45 degrees. */
+static void a_picture_beside_the_axis_is_beside_it(void **state)
+{
+    (void)state;
+    const host_camera_key key = {.look_at_m = {0, 0, -1}};
+    const host_camera_path path = {.keys = &key,
+                                   .count = 1,
+                                   .fov_deg = 50,
+                                   .near_m = 0.1,
+                                   .far_m = 100,
+                                   .calibration = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {0, HEIGHT / 4.0}}};
+    host_camera camera;
+    paint();
+    host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &camera);
+    plate_light_panorama(picture, &camera, panorama, ACROSS, DOWN);
+    expect(12, -7, 1, 0, 0);
+    expect(40, 7, 0, 0, 1);
+    expect(12, -30, 1, 1, 0);
+    expect(-12, 7, 1, 0, 0); /* mirrored */
+    expect(80, 7, 1, 0, 0);
+}
+
 static void above_and_below_are_means_of_rows(void **state)
 {
     (void)state;
@@ -89,6 +112,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_picture_is_where_the_camera_looks),
         cmocka_unit_test(it_goes_on_mirrored),
+        cmocka_unit_test(a_picture_beside_the_axis_is_beside_it),
         cmocka_unit_test(above_and_below_are_means_of_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

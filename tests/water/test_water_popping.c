@@ -20,7 +20,7 @@ static host_camera camera;
 static void open_shot(void)
 {
     const host_camera_key key = {0, {0.5, 0.6, 1.0}, {0, 0.15, 0}, 0, false};
-    const host_camera_path path = {&key, 1, FOV_DEG, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.02, .far_m = 100};
     virga_water_def def = water_fixture_def();
     def.max_width = WIDTH;
     def.max_height = HEIGHT;

@@ -24,7 +24,7 @@ static const double velocity[3] = {0.9, -0.6, 1.2}; /* m/s */
 static void aim(host_camera *camera, const double at[3])
 {
     const host_camera_key key = {0, {at[0], at[1], at[2]}, {at[0], at[1], 0}, 0, false};
-    const host_camera_path path = {&key, 1, FOV_DEG, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.02, .far_m = 100};
     host_camera_at(&path, 0, SIDE, SIDE, NULL, camera);
 }
 

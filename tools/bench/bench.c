@@ -74,7 +74,7 @@ void bench_close(bench *b)
 void bench_view(virga_view *view, uint32_t size)
 {
     static const host_camera_key key = {.position_m = {0, 1.7, 0}, .look_at_m = {0, 2.2, -10}};
-    const host_camera_path path = {&key, 1, 50, 0.1, 1000};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 50, .near_m = 0.1, .far_m = 1000};
     host_camera camera;
     host_camera_at(&path, 0, bench_sizes[size][0], bench_sizes[size][1], NULL, &camera);
     *view = virga_default_view();

@@ -212,7 +212,8 @@ static double ground_below(const shot *s, const double at_m[3])
 static double seen_from(const shot *s, const host_camera *camera)
 {
     const float *m = camera->view_from_world; /* its second row points up, its third back */
-    const double down = 1 / fabs((double)camera->clip_from_view_plain[5]);
+    const float *clip = camera->clip_from_view_plain;
+    const double down = (1 + (double)clip[9]) / fabs((double)clip[5]);
     double ray[3];
     for (int axis = 0; axis < 3; axis++)
         ray[axis] = -(double)m[2 + 4 * axis] - down * (double)m[1 + 4 * axis];

@@ -59,7 +59,8 @@ typedef struct shot {
     virga_occluder *occluders; /* room for SHOT_MAX_OCCLUDERS; effects may add theirs when they open */
     uint32_t occluder_count;
     host_camera_key *camera_keys;
-    uint32_t camera_key_capacity;
+    uint32_t camera_key_count;
+    bool keys_from_file;
     host_camera_path path;
     host_accumulator sums; /* of the sub-frames of a frame */
     host_drawn frame;      /* the newest drawn frame */

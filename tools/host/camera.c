@@ -21,6 +21,11 @@ bool host_camera_path_check(const host_camera_path *path, char *error, size_t er
         return host_fail(error, error_size, "camera: needs at least one key");
     if (!(path->fov_deg > 0.0 && path->fov_deg < 180.0))
         return host_fail(error, error_size, "camera: fov_deg %g is not between 0 and 180", path->fov_deg);
+    const host_camera_calibration *c = &path->calibration;
+    if ((c->focal_px[0] != 0 || c->focal_px[1] != 0) &&
+        !(c->focal_px[0] > 0 && c->focal_px[1] > 0 && c->size_px[0] > 0 && c->size_px[1] > 0 &&
+          isfinite(c->focal_px[0] + c->focal_px[1] + c->center_px[0] + c->center_px[1])))
+        return host_fail(error, error_size, "camera: calibration has a size or a focal length that is not above 0");
     if (!(path->near_m > 0.0 && path->near_m < path->far_m && isfinite(path->far_m)))
         return host_fail(error, error_size, "camera: expected 0 < near_m (%g) < far_m (%g)", path->near_m, path->far_m);
     for (uint32_t i = 0; i < path->count; i++) {
@@ -152,16 +157,61 @@ static void basis(const double position[3], const double target[3], double roll_
     }
 }
 
+host_camera_key host_camera_key_of_axes(double time_s, const double position_m[3], const double axes[3][3])
+{
+    host_camera_key key = {.time_s = time_s};
+    double level[3][3];
+    for (int i = 0; i < 3; i++) {
+        key.position_m[i] = position_m[i];
+        key.look_at_m[i] = position_m[i] - axes[2][i];
+    }
+    basis(key.position_m, key.look_at_m, 0, level);
+    key.roll_deg = atan2(-dot(axes[0], level[1]), dot(axes[0], level[0])) * 180.0 / PI;
+    return key;
+}
+
+void host_camera_unwrap_rolls(host_camera_key *keys, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++)
+        keys[i].roll_deg += 360.0 * round((keys[i - 1].roll_deg - keys[i].roll_deg) / 360.0);
+}
+
+bool host_camera_same_aspect(const uint32_t size_px[2], uint32_t width, uint32_t height)
+{
+    const double apart = fabs((double)size_px[1] * width - (double)size_px[0] * height);
+    return apart < fmax(size_px[0], size_px[1]);
+}
+
+void host_camera_intrinsics(const host_camera_path *path, uint32_t width, uint32_t height, double focal[2],
+                            double center[2])
+{
+    const host_camera_calibration *c = &path->calibration;
+    center[0] = center[1] = 0.5;
+    if (!(c->focal_px[1] > 0)) {
+        focal[1] = 0.5 / tan(path->fov_deg * PI / 360.0);
+        focal[0] = focal[1] * height / width;
+        return;
+    }
+    const bool same = host_camera_same_aspect(c->size_px, width, height);
+    const double across_px = same ? c->size_px[0] : (double)c->size_px[1] * width / height;
+    focal[0] = c->focal_px[0] / across_px;
+    focal[1] = c->focal_px[1] / c->size_px[1];
+    center[0] += (c->center_px[0] - 0.5 * c->size_px[0]) / across_px;
+    center[1] = c->center_px[1] / c->size_px[1];
+}
+
 static void projection(const host_camera_path *path, uint32_t width, uint32_t height, const float jitter_px[2],
                        float m[16])
 {
-    double focal = 1.0 / tan(path->fov_deg * PI / 360.0);
+    double focal[2], center[2];
+    host_camera_intrinsics(path, width, height, focal, center);
     double range = path->near_m - path->far_m;
     memset(m, 0, 16 * sizeof *m);
-    m[0] = (float)(focal * height / width);
-    m[5] = (float)-focal;
-    m[8] = -2.0f * jitter_px[0] / (float)width; /* times -w: a shift of the picture by jitter pixels */
-    m[9] = -2.0f * jitter_px[1] / (float)height;
+    m[0] = (float)(2.0 * focal[0]);
+    m[5] = (float)(-2.0 * focal[1]);
+    /* Times -w: shifts of the picture by jitter pixels, and of its middle to where the axis is. */
+    m[8] = -2.0f * jitter_px[0] / (float)width - (float)(2.0 * center[0] - 1.0);
+    m[9] = -2.0f * jitter_px[1] / (float)height - (float)(2.0 * center[1] - 1.0);
     m[10] = (float)(path->far_m / range);
     m[11] = -1.0f;
     m[14] = (float)(path->near_m * path->far_m / range);

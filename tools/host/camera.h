@@ -16,11 +16,19 @@ typedef struct host_camera_key {
     bool cut;        /* a new shot begins here: the one before holds its last key until this time */
 } host_camera_key;
 
+/* A camera that was measured: in pixels of a picture of `size_px`. It holds for pictures of other sizes as well. */
+typedef struct host_camera_calibration {
+    uint32_t size_px[2];
+    double focal_px[2];  /* focal length to the side and up, > 0; both 0: not measured, fov_deg holds */
+    double center_px[2]; /* where the camera's axis meets the picture, from its upper left corner: right and down */
+} host_camera_calibration;
+
 typedef struct host_camera_path {
     const host_camera_key *keys; /* by rising time; not owned */
     uint32_t count;              /* at least 1 */
     double fov_deg;              /* of the picture's height, (0; 180) */
     double near_m, far_m;        /* 0 < near < far */
+    host_camera_calibration calibration;
 } host_camera_path;
 
 /* The camera at one time, for one picture size and one jitter. */
@@ -37,6 +45,20 @@ typedef struct host_camera {
 
 /* True, or false with one line in `error` that says what is wrong with the path. */
 bool host_camera_path_check(const host_camera_path *path, char *error, size_t error_size);
+
+/* Whether a picture has the aspect of another, within a pixel of its width or height. */
+bool host_camera_same_aspect(const uint32_t size_px[2], uint32_t width, uint32_t height);
+
+/* Focal lengths, and where the camera's axis meets the picture from its upper left corner, in shares of a picture's
+ * width and height. A picture of another aspect than that of the calibration shows the same height. */
+void host_camera_intrinsics(const host_camera_path *path, uint32_t width, uint32_t height, double focal[2],
+                            double center[2]);
+
+/* The key of a camera whose axes in the world are known: right, up and back, of unit length, at right angles. */
+host_camera_key host_camera_key_of_axes(double time_s, const double position_m[3], const double axes[3][3]);
+
+/* Adds whole turns to rolls, so that none differs by more than half a turn from the one before. */
+void host_camera_unwrap_rolls(host_camera_key *keys, uint32_t count);
 
 /* The camera at a time: cubic in time between the keys of a shot, position and speed continuous; constant before the
  * first key and after the last. `jitter_px` may be NULL. */

@@ -56,9 +56,8 @@ static bool read_numbers(const char *path, uint32_t *width, uint32_t *height, fl
 /* How much longer the ray of a pixel is than its way along the axis. */
 static double ray_length(const depth_map_def *def, uint32_t width, uint32_t height, size_t i)
 {
-    const double pixel = def->view_height / height;
-    const double x = ((double)(i % width) + 0.5 - 0.5 * width) * pixel;
-    const double y = ((double)(i / width) + 0.5 - 0.5 * height) * pixel;
+    const double x = (((double)(i % width) + 0.5) / width - def->center[0]) / def->focal[0];
+    const double y = (((double)(i / width) + 0.5) / height - def->center[1]) / def->focal[1];
     return sqrt(1 + x * x + y * y);
 }
 

@@ -14,10 +14,11 @@ typedef enum depth_map_kind {
 
 typedef struct depth_map_def {
     depth_map_kind kind;
-    double scale;       /* of a value; 0: 1 of floats, 1 / 256 of whole numbers (KITTI) */
-    double baseline_m;  /* (disparity) */
-    double focal_px;    /* (disparity) in pixels of this picture */
-    double view_height; /* (ray) height of what the picture shows at a distance of 1 */
+    double scale;      /* of a value; 0: 1 of floats, 1 / 256 of whole numbers (KITTI) */
+    double baseline_m; /* (disparity) */
+    double focal_px;   /* (disparity) in pixels of this picture */
+    double focal[2];   /* (ray) focal lengths, and where the axis meets the picture from its upper left corner, */
+    double center[2];  /* (ray) in shares of its width and height */
 } depth_map_def;
 
 /* Whether the name ends as that of a depth map: .exr, .png, .tif, .tiff or .npy. */

@@ -1,9 +1,9 @@
 /* scene_file.h - scene files: YAML by schema, checked to the last key.
  *
  * A file names meshes, an environment, lights, the camera's path, the frames to render, and the settings of each
- * effect. All lengths in metres, angles in degrees, Y up. Every key but `virga` and `camera.keys` has a default; see
- * scene_core.c and the effects for the ranges and defaults. What is wrong is reported in one line with file, line and
- * key:
+ * effect. All lengths in metres, angles in degrees, Y up. Every key but `virga` and those of the camera's path has a
+ * default; see scene_core.c, scene_camera.c and the effects for the ranges and defaults. What is wrong is reported in
+ * one line with file, line and key:
  *
  *     street.yaml:12: rain.rate_mm_h: expected a number from 0 to 200, got 'lots'
  */
@@ -68,10 +68,29 @@ typedef enum scene_blur {
     SCENE_BLUR_EXACT,  /* each sub-frame looks from another point of the lens */
 } scene_blur;
 
+/* What a calibration measures, in pixels of a picture of `size_px`. */
+typedef struct scene_calibration {
+    uint32_t size_px[2]; /* 0, 0: see scene_camera_calibrated_size */
+    double focal_px[2];  /* 0, 0: not calibrated */
+    double center_px[2]; /* from the middle of the upper left pixel; 0, 0: the middle of the picture */
+} scene_calibration;
+
+/* Where a camera was, from a file; see camera_poses.h. */
+typedef struct scene_poses {
+    char *file;      /* NULL: none */
+    uint32_t format; /* camera_poses_format */
+    char *times;     /* NULL: by rate_hz */
+    double rate_hz;  /* 0: frames.fps */
+    uint32_t images; /* camera_poses_images */
+    double scale;
+    uint32_t up; /* camera_poses_up */
+} scene_poses;
+
 typedef struct scene_camera {
     double fov_deg;   /* of the picture's height, where focal_mm is 0 */
     double focal_mm;  /* focal length; 0: from fov_deg */
     double sensor_mm; /* height of the sensor */
+    scene_calibration calibration;
     double near_m, far_m;
     double aperture_f;           /* f-number; 0: everything is sharp */
     double aperture_mm;          /* for the focus of streaks alone, where aperture_f is 0 */
@@ -82,8 +101,11 @@ typedef struct scene_camera {
     uint32_t blades;
     double blade_roundness, blade_rotation_deg, cats_eye, breathing;
     uint32_t blur;          /* scene_blur */
-    scene_camera_key *keys; /* at least 1, by rising time */
+    scene_camera_key *keys; /* by rising time; none: a path of poses, or of a speed */
     uint32_t key_count;
+    scene_poses poses;
+    double *speed_m_s; /* NULL: a path of keys or poses */
+    double height_m, pitch_deg;
 } scene_camera;
 
 typedef struct scene_frames {
@@ -114,6 +136,7 @@ typedef struct scene_footage {
     double depth_scale;        /* of a value; 0: by the format */
     double disparity_base_m;   /* (disparity) between the two cameras */
     double disparity_focal_px; /* (disparity) focal length in pixels of the depth's picture */
+    uint32_t plate_px[2];      /* no key: size of the plate's pictures, set by who reads them; 0, 0: no plate */
 } scene_footage;
 
 /* The keys that one effect adds, see scene_schema.h. */
@@ -157,9 +180,15 @@ bool scene_file_refuse(const scene_file *scene, const char *key, char *error, si
 uint64_t scene_file_hash(const scene_file *scene);
 
 /* Angle of view of the picture's height, with the focus at infinity; focal length, and diameter of the aperture. */
-double scene_camera_fov_deg(const scene_camera *camera);
-double scene_camera_focal_m(const scene_camera *camera);
-double scene_camera_aperture_m(const scene_camera *camera); /* 0: a pinhole */
+double scene_camera_fov_deg(const scene_file *scene);
+double scene_camera_focal_m(const scene_file *scene);
+double scene_camera_aperture_m(const scene_file *scene); /* 0: a pinhole */
+
+/* Whether camera.calibration gives the angle of view. If so: the size of the picture that its numbers are for, and
+ * where the camera's axis meets that picture, from its upper left corner. */
+bool scene_camera_is_calibrated(const scene_file *scene);
+void scene_camera_calibrated_size(const scene_file *scene, uint32_t size_px[2]);
+void scene_camera_calibrated_center(const scene_file *scene, double center_px[2]);
 
 /* The settings of an effect: a struct of the section's size. NULL if the scene was loaded without the section. */
 void *scene_file_section(const scene_file *scene, const scene_section *section);

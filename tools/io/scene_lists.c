@@ -26,7 +26,7 @@ static bool fill_list(const scene_item *item, void *entry)
     if (row->type != SCENE_TYPE_LIST || has_names(row))
         return false;
     *list = (scene_list){.count = scene_list_length(row, item->owner),
-                         .min_entries = row->min_count,
+                         .min_entries = row->min_count > row->keep_count ? row->min_count : row->keep_count,
                          .max_entries = row->max_count,
                          .used = scene_list_is_used(item),
                          .row = row,

@@ -53,6 +53,7 @@ typedef struct scene_row {
     const scene_keyword *keywords; /* (choice) */
     const scene_group *group;      /* (group) its rows; (list) the rows of each entry, NULL: entries are texts */
     uint32_t count_offset, min_count, max_count; /* (list) */
+    uint32_t keep_count; /* (list) a user can not remove the last of so many entries, though a file may have fewer */
     /* (list) its entries are read only where a key beside it has a keyword, as "drive=keys". A file must not have any
      * elsewhere. NULL: they always are */
     const char *used_where;

@@ -71,7 +71,7 @@ static bool open_pane(bench *b, const struct row *row, pane *p)
         return options_complain("bench", "no pane of %u x %u texels could be made", row->side, row->side);
     const double middle = 0.5 * (double)row->width_m, away = middle / tan(M_PI / 9);
     const host_camera_key key = {0, {middle, middle, -away}, {middle, middle, 0}, 0, false};
-    const host_camera_path path = {&key, 1, 40, 0.01, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.01, .far_m = 100};
     host_camera_at(&path, 0, row->side, row->side, NULL, &p->camera);
     return true;
 }

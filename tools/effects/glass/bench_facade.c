@@ -87,7 +87,7 @@ static bool open_facade(bench *b, const struct row *row, facade *f)
     if (virga_target_create(b->context, &layer, &f->layer) < 0)
         return options_complain("bench", "no target could be made");
     const host_camera_key key = {0, {9.6, 9.75, 28}, {9.6, 9.75, 0}, 0, false};
-    const host_camera_path path = {&key, 1, 40, 0.1, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.1, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &f->camera);
     const double start = progress_now(), worked = worked_ms();
     while (f->count < row->panes && open_pane(b, f, &def, f->count))

@@ -64,7 +64,7 @@ static bool open_pane(bench *b, pane *p)
         virga_glass_attach(p->glass, p->layer) < 0)
         return options_complain("bench", "no pane could be made");
     const host_camera_key key = {0, {0.2, 0.15, -0.15 / tan(M_PI / 9)}, {0.2, 0.15, 0}, 0, false};
-    const host_camera_path path = {&key, 1, 40, 0.01, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.01, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &p->camera);
     return true;
 }

@@ -80,7 +80,7 @@ void splash_bench_fill_view(virga_view *view)
     const uint32_t *size = bench_sizes[PICTURE];
     const host_camera_key key = {.position_m = {0, CAMERA_M, 0},
                                  .look_at_m = {0, CAMERA_M - sin(DOWN_RAD), -cos(DOWN_RAD)}};
-    const host_camera_path path = {&key, 1, FOV_DEG, 0.1, 1000};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.1, .far_m = 1000};
     host_camera camera;
     host_camera_at(&path, 0, size[0], size[1], NULL, &camera);
     *view = virga_default_view();

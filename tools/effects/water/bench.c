@@ -120,7 +120,7 @@ static bool make_water(bench *b, pool *p)
 static void aim(virga_view *view)
 {
     static const host_camera_key key = {.position_m = {0.4, 0.95, 1.5}, .look_at_m = {0, 0.35, 0}};
-    const host_camera_path path = {&key, 1, 40, 0.02, 100};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.02, .far_m = 100};
     host_camera camera;
     host_camera_at(&path, 0, bench_sizes[PICTURE][0], bench_sizes[PICTURE][1], NULL, &camera);
     *view = virga_default_view();

@@ -6,6 +6,7 @@
 #include "exr.h"
 #include "scene_file.h"
 #include "shot/focus.h"
+#include "shot/path.h"
 #include "shot/shot.h"
 
 #include <assimp/cimport.h>
@@ -109,12 +110,23 @@ static bool check_focus(const scene_file *scene)
     return good;
 }
 
+static bool check_path(const scene_file *scene)
+{
+    char error[1024];
+    host_camera_key *keys;
+    uint32_t count;
+    if (!path_keys(scene, &keys, &count, error, sizeof error))
+        return options_complain("check", "%s", error);
+    free(keys);
+    return true;
+}
+
 static bool check_files(const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         if (!check_mesh(scene->meshes[i].file))
             return false;
-    if (!check_environment(scene->environment.file) || !check_focus(scene))
+    if (!check_path(scene) || !check_environment(scene->environment.file) || !check_focus(scene))
         return false;
     for (uint32_t i = 0; tool_effects[i]; i++) {
         char error[1024];
@@ -124,11 +136,12 @@ static bool check_files(const scene_file *scene)
     return true;
 }
 
-static void print_lens(const scene_camera *camera)
+static void print_lens(const scene_file *scene)
 {
+    const scene_camera *camera = &scene->camera;
     if (camera->aperture_f <= 0)
         return;
-    printf("  lens         %.3g mm, f/%g, focus ", 1e3 * scene_camera_focal_m(camera), camera->aperture_f);
+    printf("  lens         %.3g mm, f/%g, focus ", 1e3 * scene_camera_focal_m(scene), camera->aperture_f);
     if (camera->focus_key_count)
         printf("by %u keys\n", camera->focus_key_count);
     else if (camera->focus_on)
@@ -139,6 +152,18 @@ static void print_lens(const scene_camera *camera)
         printf("at infinity\n");
 }
 
+static void print_camera(const scene_file *scene)
+{
+    const scene_camera *camera = &scene->camera;
+    if (scene_camera_is_calibrated(scene))
+        printf("  calibration  focal length %g x %g pixels, %.1f degrees high\n", camera->calibration.focal_px[0],
+               camera->calibration.focal_px[1], scene_camera_fov_deg(scene));
+    if (camera->poses.file)
+        printf("  camera       poses of %s, the first %g m high\n", camera->poses.file, camera->height_m);
+    else if (camera->speed_m_s)
+        printf("  camera       at %g m/s\n", *camera->speed_m_s);
+}
+
 static void print_scene(const char *path, const scene_file *scene)
 {
     const scene_frames *frames = &scene->frames;
@@ -147,7 +172,8 @@ static void print_scene(const char *path, const scene_file *scene)
            frames->size[0], frames->size[1]);
     if (frames->preroll_s > 0)
         printf("  pre-roll     %g s of rain before frame %u\n", frames->preroll_s, frames->first);
-    print_lens(&scene->camera);
+    print_camera(scene);
+    print_lens(scene);
     for (uint32_t i = 0; tool_effects[i]; i++)
         if (tool_effects[i]->print)
             tool_effects[i]->print(scene);

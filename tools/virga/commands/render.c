@@ -190,6 +190,8 @@ static bool read_plate(render_job *job, uint32_t size[2])
     if (plate &&
         !plate_peek(plate, job->scene->frames.first, job->frames, &format, plate_size, job->error, sizeof job->error))
         return fail(job);
+    if (plate)
+        memcpy(job->scene->footage.plate_px, plate_size, sizeof plate_size);
     if (of_plate)
         memcpy(size, plate_size, sizeof plate_size);
     return frame_picture_parse(options_value(&job->parsed, "--picture"), plate ? &format : NULL, &job->picture);

@@ -167,7 +167,7 @@ static void place_cameras(shot *s, double close_s, double part_s, double shot_st
 static void set_lens(const shot *s, double focus_inv_m, virga_view *view)
 {
     const scene_camera *camera = &s->scene->camera;
-    const double aperture_m = camera->aperture_f > 0 ? scene_camera_aperture_m(camera) : 1e-3 * camera->aperture_mm;
+    const double aperture_m = camera->aperture_f > 0 ? scene_camera_aperture_m(s->scene) : 1e-3 * camera->aperture_mm;
     view->aperture_m = shot_looks_through_lens(s) ? 0 : (float)fmin(aperture_m, 1);
     view->focus_m = focus_inv_m > 1e-6 ? (float)(1 / focus_inv_m) : 0;
 }
@@ -188,7 +188,7 @@ static virga_view look_through(shot *s, double part_s, const sample_cameras *cam
 static void lens_point(const shot *s, uint32_t sample, double lens_m[2])
 {
     const scene_camera *camera = &s->scene->camera;
-    const double radius_m = 0.5 * scene_camera_aperture_m(camera);
+    const double radius_m = 0.5 * scene_camera_aperture_m(s->scene);
     lens_m[0] = lens_m[1] = 0;
     if (!shot_looks_through_lens(s))
         return;

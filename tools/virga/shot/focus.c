@@ -114,7 +114,7 @@ void shot_camera(shot *s, double camera_s, double focus_inv_m, const float jitte
 {
     const scene_camera *from = &s->scene->camera;
     const host_camera_path eye = shot_eye(s);
-    const double larger = virga_lens_breathing(scene_camera_focal_m(from), focus_inv_m > 0 ? 1 / focus_inv_m : 0);
+    const double larger = virga_lens_breathing(scene_camera_focal_m(s->scene), focus_inv_m > 0 ? 1 / focus_inv_m : 0);
     host_camera_at(&eye, camera_s, s->options.width, s->options.height, jitter_px, camera);
     if (from->breathing > 0 && focus_inv_m > 0)
         host_camera_zoom(camera, 1 + from->breathing * (larger - 1));

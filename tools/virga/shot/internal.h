@@ -51,8 +51,8 @@ bool shot_load_environment(shot *s, char *error, size_t error_size);
 /* Lamps, into s->lighting and the renderer. */
 void shot_load_lights(shot *s);
 
-/* The path, into s->camera_keys and s->path. False: no memory. */
-bool shot_load_camera(shot *s);
+/* The path, into s->camera_keys and s->path. */
+bool shot_load_camera(shot *s, char *error, size_t error_size);
 
 /* ---- device.c */
 

@@ -125,9 +125,8 @@ void shot_close_lens(shot *s)
 /* What is farthest is blurred the most, but for what is very near. */
 static void warn_of_cut(shot *s, const virga_lens_settings *settings, double focus_inv_m)
 {
-    const scene_camera *camera = &s->scene->camera;
-    const double pixels = 0.5 * s->options.height / tan(0.5 * scene_camera_fov_deg(camera) * M_PI / 180);
-    const double radius_px = 0.5 * scene_camera_aperture_m(camera) * pixels * focus_inv_m;
+    const double pixels = 0.5 * s->options.height / tan(0.5 * scene_camera_fov_deg(s->scene) * M_PI / 180);
+    const double radius_px = 0.5 * scene_camera_aperture_m(s->scene) * pixels * focus_inv_m;
     if (s->lens->warned || s->options.live || radius_px <= (double)settings->max_radius_px)
         return;
     host_warn(&s->device, "camera: blur of %.0f pixels is cut to %g; camera.blur=exact cuts none", radius_px,
@@ -139,8 +138,8 @@ static bool apply(shot *s, virga_lens *lens, double focus_inv_m, char *error, si
 {
     const scene_camera *camera = &s->scene->camera;
     virga_lens_settings to = virga_default_lens_settings();
-    to.focal_m = (float)fmin(fmax(scene_camera_focal_m(camera), 0.001), 10);
-    to.aperture_f = (float)(camera->aperture_f * (double)to.focal_m / scene_camera_focal_m(camera));
+    to.focal_m = (float)fmin(fmax(scene_camera_focal_m(s->scene), 0.001), 10);
+    to.aperture_f = (float)(camera->aperture_f * (double)to.focal_m / scene_camera_focal_m(s->scene));
     to.focus_m = focus_inv_m > 1e-6 ? (float)(1 / focus_inv_m) : 0;
     to.blades = camera->blades;
     to.blade_roundness = (float)camera->blade_roundness;

@@ -9,8 +9,8 @@
 /* What may have changed in the scene since the last frame, beside the settings that every step applies. */
 static bool follow_scene(shot *s, char *error, size_t error_size)
 {
-    if (!shot_load_camera(s))
-        return host_fail(error, error_size, "no memory for the camera's path");
+    if (!shot_load_camera(s, error, error_size))
+        return false;
     if (s->path.far_m <= s->path.near_m)
         s->path.far_m = 2 * s->path.near_m; /* until the other of the two has been changed as well */
     shot_load_lights(s);
@@ -56,7 +56,8 @@ bool shot_live_restart(shot *s, char *error, size_t error_size)
     s->camera_time_s = -shot_preroll_s(s);
     s->began = false;
     s->warning[0] = 0;
-    return shot_open_scene(s, error, error_size);
+    s->keys_from_file = false;
+    return shot_load_camera(s, error, error_size) && shot_open_scene(s, error, error_size);
 }
 
 bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, size_t error_size)

@@ -4,6 +4,7 @@
 #include "effect.h"
 #include "exr.h"
 #include "shot/focus.h"
+#include "shot/path.h"
 #include "shot/plate.h"
 #include "shot/plate_light.h"
 
@@ -118,28 +119,38 @@ void shot_load_lights(shot *s)
         host_renderer_set_lights(s->renderer, s->lighting.lights, s->lighting.light_count);
 }
 
-bool shot_load_camera(shot *s)
+/* The file of poses is read once, until the scene is loaded again. */
+static bool load_keys(shot *s, char *error, size_t error_size)
+{
+    host_camera_key *keys;
+    uint32_t count;
+    const bool from_file = s->scene->camera.poses.file;
+    if (s->camera_keys && s->keys_from_file && from_file)
+        return true;
+    if (!shot_blame_input(s, path_keys(s->scene, &keys, &count, error, error_size)))
+        return false;
+    free(s->camera_keys);
+    s->camera_keys = keys;
+    s->camera_key_count = count;
+    s->keys_from_file = from_file;
+    return true;
+}
+
+bool shot_load_camera(shot *s, char *error, size_t error_size)
 {
     const scene_camera *from = &s->scene->camera;
-    if (from->key_count > s->camera_key_capacity) {
-        host_camera_key *grown = realloc(s->camera_keys, from->key_count * sizeof *grown);
-        if (!grown)
-            return false;
-        s->camera_keys = grown;
-        s->camera_key_capacity = from->key_count;
-    }
-    for (uint32_t i = 0; i < from->key_count; i++) {
-        host_camera_key *key = &s->camera_keys[i];
-        key->time_s = from->keys[i].time_s;
-        memcpy(key->position_m, from->keys[i].position_m, sizeof key->position_m);
-        memcpy(key->look_at_m, from->keys[i].look_at_m, sizeof key->look_at_m);
-        key->roll_deg = from->keys[i].roll_deg;
-        key->cut = from->keys[i].cut;
-    }
+    if (!load_keys(s, error, error_size))
+        return false;
     s->path = (host_camera_path){.keys = s->camera_keys,
-                                 .count = from->key_count,
-                                 .fov_deg = scene_camera_fov_deg(from),
+                                 .count = s->camera_key_count,
+                                 .fov_deg = scene_camera_fov_deg(s->scene),
                                  .near_m = from->near_m,
                                  .far_m = from->far_m};
+    if (scene_camera_is_calibrated(s->scene)) {
+        host_camera_calibration *to = &s->path.calibration;
+        scene_camera_calibrated_size(s->scene, to->size_px);
+        scene_camera_calibrated_center(s->scene, to->center_px);
+        memcpy(to->focal_px, from->calibration.focal_px, sizeof to->focal_px);
+    }
     return true;
 }

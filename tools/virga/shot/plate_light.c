@@ -10,7 +10,8 @@ enum { SIDE = 4 }; /* of the grid of directions whose mean is a pixel of the pan
 typedef struct light {
     const float *rgba;
     const host_camera *camera;
-    double half[2];    /* of the picture, as angles from its middle: to the side, and up */
+    double low[2];     /* of the picture, as angles from the camera's axis: its left and lower side, */
+    double high[2];    /* its right and upper side */
     double edge[2][3]; /* mean of the upper and of the lower rows */
 } light;
 
@@ -23,31 +24,32 @@ static void mean_rows(const light *l, uint32_t first, uint32_t last, double mean
             mean[c] += (double)l->rgba[i * 4 + c] / (double)((last - first) * width);
 }
 
-/* Back and forth between -half and half. */
-static double fold(double angle, double half)
+/* Back and forth between two angles. */
+static double fold(double angle, double low, double high)
 {
-    const double turn = fabs(fmod(angle + half, 4 * half));
-    return (turn > 2 * half ? 4 * half - turn : turn) - half;
+    const double wide = high - low, turn = fabs(fmod(angle - low, 2 * wide));
+    return low + (turn > wide ? 2 * wide - turn : turn);
 }
 
 static size_t index_of(double share, uint32_t count)
 {
-    const double at = floor((0.5 + 0.5 * share) * count);
+    const double at = floor(share * count);
     return at < 0 ? 0 : at >= count ? count - 1 : (size_t)at;
 }
 
 /* Light from a direction of unit length in the camera's space: right, up, back. */
 static void look_up(const light *l, const double v[3], double rgb[3])
 {
-    const double up = asin(fmax(-1, fmin(v[1], 1))), beyond = fabs(up) - l->half[1];
-    const double angle[2] = {fold(atan2(v[0], -v[2]), l->half[0]), fmax(-l->half[1], fmin(up, l->half[1]))};
+    const double up = asin(fmax(-1, fmin(v[1], 1))), beyond = fmax(up - l->high[1], l->low[1] - up);
+    const double angle[2] = {fold(atan2(v[0], -v[2]), l->low[0], l->high[0]), fmax(l->low[1], fmin(up, l->high[1]))};
     const double away = fmax(0, fmin(beyond / FADE, 1)), fade = away * away * (3 - 2 * away);
-    const double across = tan(angle[0]) / tan(l->half[0]);
-    const double down = -tan(angle[1]) / cos(angle[0]) / tan(l->half[1]);
+    const float *clip = l->camera->clip_from_view_plain;
+    const double across = 0.5 + 0.5 * ((double)clip[0] * tan(angle[0]) - (double)clip[8]);
+    const double down = 0.5 + 0.5 * ((double)clip[5] * tan(angle[1]) / cos(angle[0]) - (double)clip[9]);
     const float *pixel =
         l->rgba + 4 * (index_of(down, l->camera->height) * l->camera->width + index_of(across, l->camera->width));
     for (size_t c = 0; c < 3; c++)
-        rgb[c] = (1 - fade) * fmax((double)pixel[c], 0) + fade * fmax(l->edge[up < 0][c], 0);
+        rgb[c] = (1 - fade) * fmax((double)pixel[c], 0) + fade * fmax(l->edge[up < l->low[1]][c], 0);
 }
 
 /* The direction of a place of the panorama, turned into the camera's space. */
@@ -63,8 +65,13 @@ static void direction_of(const light *l, double column, double row, double out[3
 void plate_light_panorama(const float *rgba, const host_camera *camera, float *rgb, uint32_t width, uint32_t height)
 {
     light l = {.rgba = rgba, .camera = camera};
-    for (int axis = 0; axis < 2; axis++)
-        l.half[axis] = atan(1 / fabs((double)camera->clip_from_view_plain[5 * axis]));
+    const float *clip = camera->clip_from_view_plain; /* down, so clip[5] is below zero */
+    for (int axis = 0; axis < 2; axis++) {
+        const double a = atan(((double)clip[8 + axis] - 1) / (double)clip[5 * axis]);
+        const double b = atan(((double)clip[8 + axis] + 1) / (double)clip[5 * axis]);
+        l.low[axis] = fmin(a, b);
+        l.high[axis] = fmax(a, b);
+    }
     const uint32_t tenth = camera->height / 10 ? camera->height / 10 : 1;
     mean_rows(&l, 0, tenth, l.edge[0]);
     mean_rows(&l, camera->height - tenth, camera->height, l.edge[1]);

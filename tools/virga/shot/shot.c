@@ -30,21 +30,21 @@ static bool open_plate(shot *s, char *error, size_t error_size)
     if (!s->plate)
         return host_fail(error, error_size, "no memory for a plate");
     const scene_footage *footage = &s->scene->footage;
-    const plate_def def = {
+    plate_def def = {
         .pictures = s->options.plate,
         .depths = s->options.depth,
         .curve = footage->curve,
         .depth = {.kind = footage->depth_kind,
                   .scale = footage->depth_scale,
                   .baseline_m = footage->disparity_base_m,
-                  .focal_px = footage->disparity_focal_px,
-                  .view_height = 2 * tan(scene_camera_fov_deg(&s->scene->camera) * M_PI / 360)},
+                  .focal_px = footage->disparity_focal_px},
         .depth_m = footage->depth_m,
         .near_m = s->scene->camera.near_m,
         .far_m = s->scene->camera.far_m,
         .width = s->options.width,
         .height = s->options.height,
     };
+    host_camera_intrinsics(&s->path, def.width, def.height, def.depth.focal, def.depth.center);
     return plate_open(s->plate, &def, s->scene->frames.first, s->options.frames, error, error_size) &&
            plate_load(s->plate, s->options.frames[0], error, error_size);
 }
@@ -62,9 +62,21 @@ static bool open_plate_buffers(shot *s, char *error, size_t error_size)
                                &s->plate_depth_buffer, error, error_size));
 }
 
+/* A window may have any aspect: it shows the height of the picture. */
+static bool check_aspect(const shot *s, char *error, size_t error_size)
+{
+    const uint32_t *size = s->path.calibration.size_px;
+    return !scene_camera_is_calibrated(s->scene) || s->options.live ||
+           host_camera_same_aspect(size, s->options.width, s->options.height) ||
+           scene_file_refuse(s->scene, "camera.calibration.size_px", error, error_size,
+                             "expected the aspect of the picture to be drawn (%u x %u), got %u x %u; see --size",
+                             s->options.width, s->options.height, size[0], size[1]);
+}
+
 static bool check_input(shot *s, char *error, size_t error_size)
 {
     return shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
+                                   check_aspect(s, error, error_size) &&
                                    shot_check_scene(s->scene, error, error_size) && open_plate(s, error, error_size));
 }
 
@@ -107,10 +119,8 @@ bool shot_create_picture(shot *s, char *error, size_t error_size)
 
 static bool open_all(shot *s, char *error, size_t error_size)
 {
-    if (!shot_load_camera(s))
-        return host_fail(error, error_size, "no memory for the camera's path");
-    return check_input(s, error, error_size) && shot_open_device(s, error, error_size) &&
-           open_plate_buffers(s, error, error_size) &&
+    return shot_load_camera(s, error, error_size) && check_input(s, error, error_size) &&
+           shot_open_device(s, error, error_size) && open_plate_buffers(s, error, error_size) &&
            (!s->options.draw || shot_create_picture(s, error, error_size)) && shot_open_scene(s, error, error_size);
 }
 
