@@ -17,24 +17,43 @@
 
 /* ---- constants of a view */
 
-#define MAX_COVERAGE 0.25        /* as in shaders/rain/prepare_write.comp */
-#define MIN_COVERAGE (1.0 / 400) /* as in shaders/rain/view.glsl: less coverage is invisible, also in 8 bits */
+/* As in shaders/rain/draw/view.glsl: */
+#define MAX_COVERAGE 0.25
+#define MIN_COVERAGE (1.0 / 800)
+#define WIDE_PX      3.0
 
-/* Coverage (0 to 1) of a streak of a class at a distance, without the limit. */
-static double streak_coverage(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
+/* The width (px) with which a streak is drawn at a distance, from that of its drop. */
+static double drawn_width(const virga_view_gpu *view, double width_px, double distance_m)
+{
+    const double blur_px = (double)view->lens_px * fabs((double)view->inv_focus - 1 / distance_m);
+    return fmax(width_px, fmax((double)view->min_width_px, blur_px));
+}
+
+/* Coverage (0 to 1) of the streak of one drop at a distance. */
+static double streak_coverage(const rain_view_block *block, double diameter_m, double speed_m_s, double distance_m)
 {
     const virga_view_gpu *view = &block->view;
-    const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
-    const double blur_px = (double)view->lens_px * fabs((double)view->inv_focus - 1 / distance_m);
-    const double drawn_px = fmax(width_px, fmax((double)view->min_width_px, blur_px));
-    const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s) * (double)block->look.parts;
-    const double one = (double)block->look.streak_gain * c->diameter_m / (way > c->diameter_m ? way : c->diameter_m);
-    return (one < 1 ? one : 1) * width_px / drawn_px * drops;
+    const double width_px = diameter_m / (distance_m * (double)view->pixel_angle);
+    const double way = speed_m_s * (double)(view->time_close_s - view->time_open_s) * (double)block->look.parts;
+    const double one = (double)block->look.streak_gain * diameter_m / (way > diameter_m ? way : diameter_m);
+    return (one < 1 ? one : 1) * width_px / drawn_width(view, width_px, distance_m);
+}
+
+/* The share of a class's coverage at a distance that its streaks do not show. */
+static double hazy_share_of_class(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
+{
+    const double one = streak_coverage(block, c->diameter_m, c->terminal_m_s, distance_m);
+    const double large =
+        streak_coverage(block, (double)block->look.group_m, (double)block->look.group_m_s, distance_m);
+    const double shown = fmin(one * drops, fmax(one, fmin(large, MAX_COVERAGE)));
+    const double width_px = c->diameter_m / (distance_m * (double)block->view.pixel_angle);
+    const double least = MIN_COVERAGE * fmin(WIDE_PX / drawn_width(&block->view, width_px, distance_m), 1);
+    return shown < 1.5 * least ? 1 : 1 - shown / (one * drops);
 }
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show. Some drops are too small
  * to be drawn, or too faint to be seen one by one. Some slots represent so many drops that their streak would look like
- * a bar. This share becomes haze, so that the density of rain looks the same with any budget. */
+ * a bar: it shows what one large drop would. This share becomes haze, so that the density of rain looks the same with any budget. */
 static double hazy_share(const virga_rain *rain, const rain_view_block *block, uint32_t level)
 {
     const rain_classes *classes = rain->classes;
@@ -44,12 +63,9 @@ static double hazy_share(const virga_rain *rain, const rain_view_block *block, u
         const rain_class *c = &classes->classes[k];
         const double cover = classes->per_m3[k] * c->diameter_m * c->diameter_m;
         const double drops = (double)classes->weights[level * VIRGA_RAIN_CLASSES + k].drops;
-        const double would = streak_coverage(block, c, drops, distance);
         const bool small = c->diameter_m < (double)block->look.streak_min_m || !classes->slot_count[level][k];
         all += cover;
-        hazy += cover * (small || would < 1.5 * MIN_COVERAGE ? 1
-                         : would > MAX_COVERAGE && drops > 1 ? 1 - MAX_COVERAGE / would
-                                                             : 0);
+        hazy += cover * (small ? 1 : hazy_share_of_class(block, c, drops, distance));
     }
     return all > 0 ? hazy / all : 0;
 }
@@ -86,6 +102,8 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->view.near_fade_m = settings->near_fade_m;
     out->look.oscillation = settings->oscillation;
     out->look.streak_min_m = settings->streak_min_mm * 1e-3f;
+    out->look.group_m = settings->streak_group_mm * 1e-3f;
+    out->look.group_m_s = (float)virga_drop_terminal_speed((double)out->look.group_m, (double)settings->air_density);
     out->look.sky_m = settings->haze_sky_m;
     out->look.glow = settings->glow;
     fill_haze(rain, out);

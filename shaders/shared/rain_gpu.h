@@ -96,6 +96,8 @@ struct virga_rain_look_gpu {
     float streak_gain;           /* factor of the coverage */
     float oscillation;           /* amplitude of shape oscillation; 1: physical */
     float streak_min_m;          /* m, diameter; smaller drops are drawn as haze */
+    float group_m;               /* m, diameter: a streak of many drops covers no more than this drop */
+    float group_m_s;             /* m/s, its terminal speed */
     float sky_m;                 /* m, thickness of the haze in front of the sky */
     float glow;                  /* factor of the light of lamps in haze */
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
@@ -181,7 +183,7 @@ VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 368);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 376);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);

@@ -134,6 +134,7 @@ static void set_rain(bytes *b, virga_scene *scene)
     s.haze = read_float(b, 0, 4);
     s.oscillation = read_float(b, 0, 4);
     s.streak_min_mm = read_float(b, 0.2, 2);
+    s.streak_group_mm = read_float(b, 0.2, 100);
     s.occlusion_interval = read_uint(b) % 20;
     s.sizes.kind = (virga_sizes_kind)(read_uint(b) % 4);
     s.sizes.table_diameter_m = diameters;

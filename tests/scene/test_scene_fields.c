@@ -131,6 +131,7 @@ static void rain_settings_fields(void **state)
         F(haze_sky_m, 0, 100000),
         F(glow, 0, 100),
         F(streak_min_mm, 0.2, 2),
+        F(streak_group_mm, 0.2, 100),
         F(default_material, 0, 255),
         FIELD(virga_rain_settings, wind_min_m, REFUSED, -FAR, FAR),
         FIELD(virga_rain_settings, wind_max_m, REFUSED, -FAR, FAR),

@@ -65,6 +65,8 @@ static const scene_row rain_rows[] = {
     NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),
     NUMBER(scene_rain, streak_min_mm, 0.2, 2, "0.4", LIVE,
            "smaller drops are drawn as haze only; they land all the same"),
+    NUMBER(scene_rain, streak_group_mm, 0.2, 100, "3", LIVE,
+           "a far streak of many drops covers no more than one drop of this size; the rest is haze"),
     WHOLE(scene_rain, occlusion_size, 0, 8192, "1024", RESTARTS,
           "texels along a side of the maps of where no rain falls; 0: it falls through roofs"),
     WHOLE(scene_rain, occlusion_cascades, 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"),
@@ -236,6 +238,7 @@ static void fill_look(const shot *s, const scene_rain *from, virga_rain_settings
     to->haze_sky_m = is_flat ? 0 : (float)from->haze_sky_m;
     to->glow = (float)from->glow;
     to->streak_min_mm = (float)from->streak_min_mm;
+    to->streak_group_mm = (float)from->streak_group_mm;
     to->occlusion_interval = from->occlusion_interval;
     to->lighting = s->lighting;
 }

@@ -34,7 +34,7 @@ typedef struct scene_rain {
     double range_m;
     uint32_t seed;
     double streak_gain, light_gain, min_width_px, soft_m, near_fade_m, oscillation, haze, haze_sky_m, glow,
-        streak_min_mm;
+        streak_min_mm, streak_group_mm;
     uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_interval;
     scene_rain_key *keys; /* in order of time; linear between, constant outside; none: rate_mm_h and wind_m_s apply */
     uint32_t key_count;

@@ -44,7 +44,7 @@ uint kind_of_streak(uint slot_index)
     const float path_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
     const float body_px = diameter / (depth * view.pixel_angle);
     const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.streak_min_m &&
-                         weight * streak_coverage(body_px, body_px, look.parts * path_px, blur) > MIN_COVERAGE;
+                         limited_coverage(vec2(body_px), look.parts * path_px, blur, diameter, velocity, weight) > 0.0;
     return !visible ? NOT_SELECTED : max(width_px, blur) > WIDE_PX ? SECOND_KIND : FIRST_KIND;
 }
 

@@ -25,8 +25,6 @@ layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu
 // The same buffer: the motions follow behind `max_streaks` streaks of four texels each, a texel per motion.
 layout(scalar, set = 0, binding = 7) writeonly buffer Motions { vec4 motions[]; };
 
-#define MAX_COVERAGE 0.25 // of a streak that stands for many drops: the coverage above it is haze, see rain_draw.c
-
 // Cuts the path from `tail` to `head` where it hits a surface. False: no part of it is under the sky.
 bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)
 {
@@ -64,13 +62,6 @@ virga_streak_gpu empty_streak()
     streak.light = uint[3](0u, 0u, 0u);
     streak.id = 0u;
     return streak;
-}
-
-// Coverage from the drop's width, length, path and weight, over the shutters of all views.
-float coverage(float width_px, float body_px, float path_px, float blur, float weight)
-{
-    const float one = streak_coverage(width_px, body_px, path_px, blur), all = one * weight;
-    return min(all, max(one, MAX_COVERAGE)) * clamp(all / MIN_COVERAGE - 1.0, 0.0, 1.0);
 }
 
 // x: coverage in this view alone, from that over all views. y: by which factor the streak is longer than the drop's
@@ -226,9 +217,10 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     const float width_px = diameter / (depth * view.pixel_angle), body_px = width_px * axis_ratio(mm);
     const float distance_m = length(0.5 * (path.head + path.tail) + to_vec(view.origin_offset));
     const float near = view.near_fade_m > 0.0 ? clamp(distance_m / view.near_fade_m - 1.0, 0.0, 1.0) : 1.0;
-    const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
+    const float drops = drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
     const float path_px = path_in_px(path);
-    const float whole = coverage(width_px, body_px, look.parts * path_px, blur, weight);
+    const float whole = near * limited_coverage(vec2(width_px, body_px), look.parts * path_px, blur, diameter, velocity,
+                                                drops);
     const vec2 alpha_longer = view_coverage(whole, body_px, path_px, blur);
 
     lengthen_path(path, alpha_longer.y);

@@ -19,8 +19,10 @@ vec3 sh_coefficient(uint i);
 
 #define SCENE_DEPTH_BINDING 12 // for gpu/scene_depth.glsl
 
-// A streak that covers less than this is haze, see rain_draw.c. It fades in up to twice this coverage.
-#define MIN_COVERAGE (1.0 / 400.0)
+// A streak that covers less than this is haze, see rain_draw.c. It fades in up to twice this coverage. What is wide is
+// seen at less contrast, so there the limit is lower.
+#define MIN_COVERAGE (1.0 / 800.0)
+#define MAX_COVERAGE 0.25 // of a streak that stands for many drops
 
 #define WIDE_PX 3.0 // from this width on a streak shows the inside of its drop
 
@@ -45,4 +47,18 @@ float streak_coverage(float width_px, float body, float path, float blur)
     const float longer = max(path, body);
     const float share = width_px / drawn_width(width_px, blur) * longer / max(longer, blur);
     return min(look.streak_gain * body / longer, 1.0) * share;
+}
+
+// Coverage from a drop's width and length, its path (all in pixels), its diameter and velocity (m, m/s), and from the
+// number of drops that its slot stands for. A streak of many drops covers no more than a large drop would there: far
+// rain is fine grain, not bars. The rest of its coverage is haze, see rain_draw.c.
+float limited_coverage(vec2 size_px, float path, float blur, float diameter, vec3 velocity, float drops)
+{
+    const float one = streak_coverage(size_px.x, size_px.y, path, blur);
+    const float large_px = size_px.x * look.group_m / diameter;
+    const float faster = length(vec3(velocity.x, look.group_m_s, velocity.z)) / max(length(velocity), 1e-3);
+    const float large = streak_coverage(large_px, large_px, path * faster, blur);
+    const float coverage = min(one * drops, max(one, min(large, MAX_COVERAGE)));
+    const float least = MIN_COVERAGE * min(WIDE_PX / drawn_width(size_px.x, blur), 1.0);
+    return coverage * clamp(coverage / least - 1.0, 0.0, 1.0);
 }
