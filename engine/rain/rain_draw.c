@@ -43,8 +43,7 @@ static double streak_coverage(const rain_view_block *block, double diameter_m, d
 static double hazy_share_of_class(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
 {
     const double one = streak_coverage(block, c->diameter_m, c->terminal_m_s, distance_m);
-    const double large =
-        streak_coverage(block, (double)block->look.group_m, (double)block->look.group_m_s, distance_m);
+    const double large = streak_coverage(block, (double)block->look.group_m, (double)block->look.group_m_s, distance_m);
     const double shown = fmin(one * drops, fmax(one, fmin(large, MAX_COVERAGE)));
     const double width_px = c->diameter_m / (distance_m * (double)block->view.pixel_angle);
     const double least = MIN_COVERAGE * fmin(WIDE_PX / drawn_width(&block->view, width_px, distance_m), 1);

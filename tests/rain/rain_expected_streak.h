@@ -6,8 +6,9 @@
 
 typedef struct expected {
     double head[2], tail[2], depth[2], distance[2];
-    double width_px, body_px, way_px, weight, alpha;
-    double middle[3]; /* relative to the camera */
+    double width_px, body_px, way_px, alpha;
+    double drops, near, weight; /* drops of its slot; what is left of it near the camera; their product */
+    double middle[3];           /* relative to the camera */
     double diameter_m;
 } expected;
 
@@ -51,12 +52,28 @@ static inline void to_clip(const host_camera *camera, bool reversed, const doubl
 }
 
 /* Coverage of one drop: D / distance that it moves in the shutter interval; 1 if it moves by less than D. Less if it is
- * narrower than the sampling. Multiplied by the drops that it represents, up to a quarter. Zero below 1 / 400. */
+ * narrower than the sampling. */
+static inline double coverage_of_one(const shot *s, double width_px, double body_px, double way_px)
+{
+    const double narrow = fmin(width_px / (double)s->f.settings.min_width_px, 1);
+    return fmin((double)s->f.settings.streak_gain * body_px / fmax(way_px, body_px), 1) * narrow;
+}
+
+/* Multiplied by the drops that it represents, up to what one drop of streak_group_mm covers in the same wind, and at
+ * most a quarter. Zero below 1 / 800, or less for what is wider than 3 px. */
 static inline double coverage_of(const shot *s, const expected *e)
 {
-    const double min = 1.0 / 400, narrow = fmin(e->width_px / (double)s->f.settings.min_width_px, 1);
-    const double one = fmin((double)s->f.settings.streak_gain * e->body_px / fmax(e->way_px, e->body_px), 1) * narrow;
-    return fmin(one * e->weight, fmax(one, 0.25)) * clamp01(one * e->weight / min - 1);
+    const float *wind = s->f.settings.wind_m_s;
+    const double group_m = 1e-3 * (double)s->f.settings.streak_group_mm,
+                 across2 = pow((double)wind[0], 2) + pow((double)wind[2], 2);
+    const double faster = hypot(virga_drop_terminal_speed(group_m, 0), sqrt(across2)) /
+                          hypot(virga_drop_terminal_speed(e->diameter_m, 0) - (double)wind[1], sqrt(across2));
+    const double group_px = e->width_px * group_m / e->diameter_m;
+    const double one = coverage_of_one(s, e->width_px, e->body_px, e->way_px),
+                 large = coverage_of_one(s, group_px, group_px, e->way_px * faster);
+    const double coverage = fmin(one * e->drops, fmax(one, fmin(large, 0.25)));
+    const double drawn = fmax(e->width_px, (double)s->f.settings.min_width_px);
+    return e->near * coverage * clamp01(coverage * 800 * fmax(drawn / 3, 1) - 1);
 }
 
 /* False if an end is behind the camera or nearly so. */
@@ -95,7 +112,9 @@ static inline bool expect_streak(const shot *s, uint32_t slot, expected *e)
     e->body_px = e->width_px * virga_drop_axis_ratio(e->diameter_m);
     e->way_px = hypot(way[0], way[1]);
     const double *m = e->middle, distance = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-    e->weight = weight_of(s, slot, at_tick) * clamp01(distance / (double)s->f.settings.near_fade_m - 1);
+    e->drops = weight_of(s, slot, at_tick);
+    e->near = clamp01(distance / (double)s->f.settings.near_fade_m - 1);
+    e->weight = e->drops * e->near;
     e->alpha = coverage_of(s, e);
     return true;
 }

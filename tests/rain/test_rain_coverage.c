@@ -18,7 +18,7 @@ static uint32_t choose_thin(const shot *s, uint32_t *ids)
         const bool shown =
             fmax(fabs(e.head[0]), fabs(e.tail[0])) < 0.95 && fmax(fabs(e.head[1]), fabs(e.tail[1])) < 0.95;
         const double at_half = GAIN * e.weight * e.body_px / fmax(e.way_px, e.body_px) * 0.5 * e.width_px;
-        if (shown && e.width_px < 0.98 && at_half > 2.02 / 400 && e.weight < 1.001 && e.way_px > 20 * e.body_px)
+        if (shown && e.width_px < 0.98 && at_half > 2.02 / 800 && e.weight < 1.001 && e.way_px > 20 * e.body_px)
             ids[found++] = streak->id;
     }
     return found;
@@ -248,6 +248,63 @@ static void haze_thickens_by_beers_law(void **state)
     check_haze(&s, 1.5); /* within the boxes */
     check_haze(&s, 6);
     check_haze(&s, 30); /* beyond them */
+    close_shot(&s);
+}
+
+/* The haze of a class: all of it if it has no streaks, else what they lack of the drops that they stand for. Each
+ * streak covers its whole path here, as one drop does. */
+static double haze_beside_single_drops(const shot *s, double distance_m)
+{
+    const rain_classes *classes = s->f.rain->classes;
+    const double extinction = virga_rain_extinction((double)s->f.settings.rate_mm_h);
+    double thickness = 0;
+    for (uint32_t level = 0; level < classes->levels; level++) {
+        double hazy = 0, all = 0;
+        for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
+            const double diameter = classes->classes[k].diameter_m, cover = classes->per_m3[k] * diameter * diameter;
+            const bool drawn = diameter >= (double)s->f.settings.streak_min_mm * 1e-3 && classes->slot_count[level][k];
+            const double drops = (double)classes->weights[level * VIRGA_RAIN_CLASSES + k].drops;
+            all += cover;
+            hazy += cover * (drawn ? 1 - 1 / drops : 1);
+        }
+        const double half = 0.5 * ldexp(classes->side_m, (int)level + 1 - (int)classes->levels);
+        thickness += hazy / all * fmax(fmin(half, distance_m) - (level ? 0.5 * half : 0), 0);
+    }
+    return 1 - exp(-extinction * thickness);
+}
+
+/* What the streaks of slots that stand for many drops do not cover is not lost. */
+static void what_streaks_of_many_drops_do_not_cover_is_haze(void **state)
+{
+    (void)state;
+    const double distance = 12;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    s.give_depth = true;
+    s.f.settings.streak_group_mm = s.f.settings.streak_min_mm = 0.2f; /* no larger than the smallest drops */
+    s.f.settings.streak_gain = 100;
+    apply_settings(&s);
+    s.shutter_s = 1.0 / 2000; /* at this gain drops cover all of so short a path */
+    aim_level(&s);
+    s.scene_depth = stored_depth(&s, distance);
+    draw_frame(&s, 0.2);
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
+    rain_fixture_record_step(&s.f, cmd, 0);
+    record_scene_depth(&s, cmd);
+    const virga_view view = view_of(&s);
+    REQUIRE(virga_rain_prepare(s.f.rain, cmd, &view, virga_rain_time(s.f.rain)) == VIRGA_OK);
+    host_target_begin_layer(&s.picture, cmd);
+    REQUIRE(virga_rain_draw_parts(s.f.rain, cmd, s.layer, VIRGA_RAIN_HAZE) == VIRGA_OK);
+    host_target_end_layer(&s.picture, cmd);
+    host_target_copy_out(&s.picture, cmd, 1u << HOST_LAYER);
+    rain_fixture_end_frame(&s.f);
+    const float *pixels = host_target_floats(&s.f.gpu.device, &s.picture, HOST_LAYER);
+    const double got = (double)pixels[4 * (60 * 160 + 80) + 3], expected = haze_beside_single_drops(&s, distance);
+    const double all = 1 - exp(-virga_rain_extinction(100) * distance);
+    printf("haze covers %.5f, expected %.5f; without streaks %.5f\n", got, expected, all);
+    assert_true(expected < 0.99 * all);
+    assert_true(fabs(got / expected - 1) < 2e-3);
     close_shot(&s);
 }
 
@@ -502,6 +559,7 @@ int main(void)
         cmocka_unit_test(a_streak_out_of_focus_has_round_ends),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
+        cmocka_unit_test(what_streaks_of_many_drops_do_not_cover_is_haze),
         cmocka_unit_test(there_is_haze_before_the_sky_by_default_and_none_without_depth),
         cmocka_unit_test(haze_alone_begins_at_its_plane),
         cmocka_unit_test(haze_alone_leaves_what_was_prepared),

@@ -148,7 +148,8 @@ float oscillation_phase(float hz, float time_s)
 }
 
 // The drop's oscillation: second mode, Rayleigh 1879. Drops below about 1 mm are too stiff to show it (Tokay and Beard
-// 1996), and where the lens blurs the waves there is none. `times`: from when to when the streak shows it.
+// 1996), and where the lens blurs the waves there is none. Drops of the same size oscillate by different amounts (Kubesh
+// and Beard 1993): from none to twice the mean here. `times`: from when to when the streak shows it.
 void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float path_px, float blur, vec2 times)
 {
     const float radius = 0.5e-3 * diameter_mm;
@@ -157,7 +158,8 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
     streak.oscillations =
         halves(oscillations, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + oscillation_phase(hz, times.x)));
     const float waves_blurred = blur * oscillations / max(path_px, 1.0);
-    const float size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
+    const float own = 2.0 * virga_unit(virga_hash3(tick.seed, streak.id, 1u));
+    const float size = own * clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
     streak.body_wave = halves(max(body_px, blur), size * look.oscillation);
 }
 
