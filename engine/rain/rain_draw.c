@@ -52,7 +52,8 @@ static double hazy_share_of_class(const rain_view_block *block, const rain_class
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show. Some drops are too small
  * to be drawn, or too faint to be seen one by one. Some slots represent so many drops that their streak would look like
- * a bar: it shows what one large drop would. This share becomes haze, so that the density of rain looks the same with any budget. */
+ * a bar: it shows what one large drop would. This share becomes haze, so that the density of rain looks the same with
+ * any budget. */
 static double hazy_share(const virga_rain *rain, const rain_view_block *block, uint32_t level)
 {
     const rain_classes *classes = rain->classes;

@@ -148,8 +148,8 @@ float oscillation_phase(float hz, float time_s)
 }
 
 // The drop's oscillation: second mode, Rayleigh 1879. Drops below about 1 mm are too stiff to show it (Tokay and Beard
-// 1996), and where the lens blurs the waves there is none. Drops of the same size oscillate by different amounts (Kubesh
-// and Beard 1993): from none to twice the mean here. `times`: from when to when the streak shows it.
+// 1996), and where the lens blurs the waves there is none. Drops of the same size oscillate by different amounts
+// (Kubesh and Beard 1993): from none to twice the mean here. `times`: from when to when the streak shows it.
 void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float path_px, float blur, vec2 times)
 {
     const float radius = 0.5e-3 * diameter_mm;
