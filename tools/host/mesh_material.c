@@ -141,6 +141,7 @@ static void read_surface(const struct aiMaterial *in, host_material *out)
 
     float emissive[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     get_color(in, AI_MATKEY_COLOR_EMISSIVE, emissive);
+    /* Assimp 5.2.5 does not read glTF's KHR_materials_emissive_strength: there it is 1, whatever the file says. */
     float strength = get_float(in, AI_MATKEY_EMISSIVE_INTENSITY, 1.0f);
     for (int c = 0; c < 3; c++)
         out->emissive[c] = emissive[c] * fmaxf(strength, 0.0f);
