@@ -60,7 +60,7 @@ static const virga_setting_row setting_rows[] = {
     RAIN(FLOAT, haze_sky_m, 0, 1e5, 400, .look = true),
     RAIN(FLOAT, glow, 0, 100, 1, .look = true),
     RAIN(FLOAT, streak_min_mm, 0.2, 2, 0.4, .look = true),
-    RAIN(FLOAT, streak_group_mm, 0.2, 100, 3, .look = true),
+    RAIN(FLOAT, streak_group_mm, 0.2, 100, 100, .look = true),
     RAIN(U32, default_material, 0, 255, 0),
     RAIN(U32, occlusion_interval, 1, 16, 1),
 };

@@ -158,7 +158,6 @@ static inline virga_scene *world_scene(virga_context *context, uint32_t seed)
     rain.wind_m_s[0] = 1;
     rain.wind_m_s[2] = 5;
     rain.streak_gain = 4;
-    rain.streak_group_mm = 100; /* clear streaks, whose motion can be told from the scene's */
     rain.haze_sky_m = 0; /* drops on the pane show a picture that has its haze in one host, and has not in another */
     ground.start_wetness = 0.5f;
     ground.start_water_mm = 2;

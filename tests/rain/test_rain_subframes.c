@@ -64,7 +64,6 @@ static void longer_streaks_end_at_the_ground(void **state)
     s.f.camera[1] = 0.4;
     add_picture(&s, 320, 240);
     s.f.settings.streak_gain = 6;
-    s.f.settings.streak_group_mm = 100; /* the limit is a coverage of a quarter */
     apply_settings(&s);
     aim_level(&s);
     s.sub_frames = 16;

@@ -273,7 +273,6 @@ static void the_mask_is_the_coverage_of_so_many_layers(void **state)
     shot s;
     host_camera now;
     open_shot(&s, 150);
-    s.f.settings.streak_group_mm = 100; /* clear streaks */
     REQUIRE(virga_rain_set(s.f.rain, &s.f.settings) == VIRGA_OK);
     aim(&now, 0, 0, 0, NULL);
     s.view = virga_default_view();
@@ -371,7 +370,6 @@ static void a_resolve_smears_rain_less_with_the_outputs(void **state)
     shot s;
     open_shot(&s, 60);
     s.f.settings.streak_gain = 4; /* as games want it */
-    s.f.settings.streak_group_mm = 100;
     REQUIRE(virga_rain_set(s.f.rain, &s.f.settings) == VIRGA_OK);
     s.view = virga_default_view();
     rain_scene scene = {.scene = {.picture = &s.picture, .name = "rain", .advance = advance, .draw = draw}, .shot = &s};

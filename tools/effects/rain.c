@@ -65,7 +65,7 @@ static const scene_row rain_rows[] = {
     NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),
     NUMBER(scene_rain, streak_min_mm, 0.2, 2, "0.4", LIVE,
            "smaller drops are drawn as haze only; they land all the same"),
-    NUMBER(scene_rain, streak_group_mm, 0.2, 100, "3", LIVE,
+    NUMBER(scene_rain, streak_group_mm, 0.2, 100, "100", LIVE,
            "a far streak of many drops covers no more than one drop of this size; the rest is haze"),
     WHOLE(scene_rain, occlusion_size, 0, 8192, "1024", RESTARTS,
           "texels along a side of the maps of where no rain falls; 0: it falls through roofs"),

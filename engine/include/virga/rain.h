@@ -167,9 +167,10 @@ typedef struct virga_rain_settings {
     float streak_min_mm;
 
     /* [0.2; 100] farther away one streak stands for many drops. It covers at most as much as one drop of this diameter
-     * (mm) would there; what is left is haze, so that the rain stays as dense. Small: far rain is a fine grain before
-     * a veil, as a camera records it. Large: fewer, clearer streaks and less haze; from about 20 on the limit is a
-     * coverage of 0.25. Default 3, a large drop of heavy rain. */
+     * (mm) would there; what is left is haze, so that the rain stays as dense. Small, as 3 to 5: far rain is a fine
+     * grain before a veil, as a camera records it; this needs max_drops of 250000 or more, as with fewer there are too
+     * few streaks to be seen. Large: fewer, clearer streaks and less haze; from about 20 on the limit is a coverage of
+     * 0.25. Default 100. */
     float streak_group_mm;
 
     /* [0; 255] material of surfaces that have none (depth maps of the host). Default 0. */
