@@ -71,12 +71,19 @@ static inline virga_context_def gpu_context_def(gpu_fixture *f)
     return def;
 }
 
-static inline virga_context *gpu_context(gpu_fixture *f)
+static inline virga_context *gpu_context_in_mode(gpu_fixture *f, virga_pipeline_build_mode mode)
 {
-    const virga_context_def def = gpu_context_def(f);
+    virga_context_def def = gpu_context_def(f);
     virga_context *context = NULL;
+    def.pipeline_build_mode = mode;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
     return context;
+}
+
+/* Most tests use few of the pipelines. */
+static inline virga_context *gpu_context(gpu_fixture *f)
+{
+    return gpu_context_in_mode(f, VIRGA_PIPELINES_ON_USE);
 }
 
 /* Rain with every feature and very few drops. */

@@ -181,7 +181,7 @@ static void context_survives_every_failure(void **state)
 static void create_survives_every_failure(gpu_fixture *f, build_fn build_it, uint32_t stride)
 {
     watch.keep_pipelines = true;
-    build b = {.f = f, .context = gpu_context(f), .stride = stride};
+    build b = {.f = f, .context = gpu_context_in_mode(f, VIRGA_PIPELINES_IMMEDIATE), .stride = stride};
     const uint32_t calls = fail_each_call(&b, build_it, VK_ERROR_OUT_OF_DEVICE_MEMORY, VIRGA_ERROR_DEVICE_MEMORY);
     assert_true(calls > 50);
     virga_context_destroy(&b.context);
@@ -218,7 +218,7 @@ static void shapes_survive_every_failure(void **state)
 {
     static const build_fn shapes[] = {build_flat_shape, build_windshield, build_shape_of_mesh};
     watch.keep_pipelines = true;
-    build b = {.f = *state, .context = gpu_context(*state)};
+    build b = {.f = *state, .context = gpu_context_in_mode(*state, VIRGA_PIPELINES_IMMEDIATE)};
     open_scene(&b);
     for (int i = 0; i < 3; i++)
         fail_in_each_way(&b, shapes[i], 2);

@@ -20,7 +20,7 @@ static blob read_blob(virga_context *context)
 /* The blob of a context that has built all of rain's pipelines. */
 static blob used_blob(gpu_fixture *f)
 {
-    virga_context *context = gpu_context(f);
+    virga_context *context = gpu_context_in_mode(f, VIRGA_PIPELINES_IMMEDIATE);
     virga_rain *rain = gpu_rain(context);
     const blob b = read_blob(context);
     virga_rain_destroy(&rain);
@@ -152,7 +152,7 @@ static void blob_of_another_device_is_ignored(void **state)
 static void no_blob_is_no_remark(void **state)
 {
     gpu_fixture *f = *state;
-    virga_context *context = gpu_context(f);
+    virga_context *context = gpu_context_in_mode(f, VIRGA_PIPELINES_IMMEDIATE);
     assert_int_equal(f->lines[VIRGA_LOG_PIPELINE_CACHE], 0);
     assert_int_equal(watch.cache_size, 0);
     virga_context_destroy(&context);
@@ -166,7 +166,7 @@ static void no_blob_is_no_remark(void **state)
 static void too_little_room_is_refused(void **state)
 {
     gpu_fixture *f = *state;
-    virga_context *context = gpu_context(f);
+    virga_context *context = gpu_context_in_mode(f, VIRGA_PIPELINES_IMMEDIATE);
     size_t whole = 0;
     REQUIRE(virga_pipeline_cache_get(context, &whole, NULL) == VIRGA_OK);
     unsigned char *room = malloc(whole);
