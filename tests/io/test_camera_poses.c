@@ -317,7 +317,7 @@ static void random_damage_never_crashes(void **state)
 {
     (void)state;
     static const char bytes[] = "0123456789.-+eE \n\t\rnax#\"\x00\xff";
-    char text[16384], harmed[16384];
+    char text[16384] = "", harmed[16384];
     uint64_t seed = 1;
     for (int i = 0; i < 200; i++) {
         camera_poses_def def = of_format((camera_poses_format)(i % 3));
@@ -325,7 +325,7 @@ static void random_damage_never_crashes(void **state)
         uint32_t count;
         put_poses(&def, 10, text);
         const size_t size = strlen(text);
-        memcpy(harmed, text, size);
+        memcpy(harmed, text, sizeof harmed);
         for (uint32_t k = random_bits(&seed) % 8; k < 8; k++)
             harmed[random_bits(&seed) % size] = bytes[random_bits(&seed) % (sizeof bytes - 1)];
         put_file(in_folder("poses.txt"), harmed, i % 4 ? size : random_bits(&seed) % size);

@@ -180,7 +180,7 @@ static void appending_cuts_a_long_half_line(void **state)
     jsonl file;
     char text[10000];
     memset(text, 'x', sizeof text);
-    memcpy(text, "{}\n", 3);
+    text[0] = '{', text[1] = '}', text[2] = '\n';
     put_file(in_folder("s.jsonl"), text, sizeof text);
     start(&file, JSONL_APPEND);
     one_number_line(&file, 2);
