@@ -77,6 +77,7 @@ typedef struct calls {
     bool thrown_away; /* (software Vulkan) the command buffer before this one was not submitted */
     virga_context *contexts[CALLS_CONTEXTS];
     bool lost[CALLS_CONTEXTS + 1];
+    bool jobs[CALLS_CONTEXTS + 1]; /* its pipelines are built outside of calls */
     calls_handle handles[CALLS_TYPES][CALLS_SLOTS];
     calls_frames frames[CALLS_CONTEXTS + 1];
     virga_prepared prepared[CALLS_TYPES]; /* the newest view */

@@ -151,6 +151,7 @@ void calls_make_context(calls *c, uint32_t index)
     if (c->contexts[index])
         return;
     c->lost[index] = false;
+    c->jobs[index] = def.pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS;
     c->frames[index].begun = c->frames[index].completed = 0;
     const virga_result result = CALLS_TRY(c, index, CALLS_PLAIN, virga_context_create, &def, &made);
     if (!made != (result < 0))

@@ -1,6 +1,8 @@
 /* calls_world.c - random numbers, handles and frames of the random calls, and what must be true after each call. */
 #include "calls.h"
 
+#include "stand_in.h"
+
 /* ---- numbers */
 
 static uint64_t next(calls *c)
@@ -246,6 +248,7 @@ void calls_before(calls *c, uint32_t context)
 {
     c->made++;
     c->lines = 0;
+    stand_in.unbuilt = false;
     c->commands = c->device->commands(c, context);
 }
 
@@ -271,5 +274,7 @@ virga_result calls_after(calls *c, const char *name, uint32_t context, uint32_t 
         calls_wrong(c, name, "said OK, and recorded nothing");
     if ((flags & CALLS_RECORDS) && result == VIRGA_ERROR_INVALID && recorded)
         calls_wrong(c, name, "refused, and recorded something");
+    if (stand_in.unbuilt && result >= 0 && !c->jobs[context])
+        calls_wrong(c, name, "a pipeline could not be built, and it is no error");
     return result;
 }

@@ -217,6 +217,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_QueryPool(VkDevice device, const Vk
 static VkResult create_pipelines(uint32_t count, VkPipeline *pipelines)
 {
     const VkResult result = stand_in_try();
+    stand_in.unbuilt = stand_in.unbuilt || result;
     for (uint32_t i = 0; i < count; i++)
         pipelines[i] = result ? VK_NULL_HANDLE : (VkPipeline)stand_in_make(STAND_IN_Pipeline);
     return result;

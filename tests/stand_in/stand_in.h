@@ -21,6 +21,7 @@ typedef struct stand_in_state {
     VkResult failure; /* what it returns; VK_ERROR_DEVICE_LOST: so do all later calls */
     bool lost;        /* the device is lost */
     bool failed;      /* a call has failed since the test reset this */
+    bool unbuilt;     /* a pipeline could not be created since the test reset this */
 
     bool in_order;    /* objects must live until the frames that use them are done, see stand_in_done */
     uint32_t garbage; /* what is copied out of the device's memory: 0: zeros; else numbers that follow from this seed */
