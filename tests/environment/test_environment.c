@@ -1,5 +1,6 @@
 /* test_environment.c - harmonics and panoramas of a host's images, against sums and formulas in double precision. */
 #include "../gpu/gpu_fixture.h"
+#include "../scene/host_parts.h"
 
 #include <math.h>
 
@@ -372,19 +373,6 @@ static void paint(const lit *l, VkCommandBuffer cmd, float light)
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
 }
 
-/* An empty command buffer goes to the queue in its place. */
-static void throw_away(const lit *l, VkCommandBuffer cmd, bool tell)
-{
-    const host_device *device = &l->f->gpu.device;
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
-    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
-    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
-    if (tell)
-        assert_int_equal(virga_frame_dropped(l->context, device->frame), VIRGA_OK);
-}
-
 /* A frame whose picture has one color, with the same around it. */
 static void record_painted(lit *l, const virga_environment_info *info, float light, bool lost, bool tell)
 {
@@ -395,7 +383,7 @@ static void record_painted(lit *l, const virga_environment_info *info, float lig
     paint(l, cmd, light);
     assert_int_equal(virga_environment_record(l->environment, cmd, &with), VIRGA_OK);
     if (lost)
-        throw_away(l, cmd, tell);
+        host_parts_throw_away(&l->f->gpu.device, l->context, cmd, tell);
     gpu_submit(l->f);
 }
 

@@ -224,7 +224,7 @@ static void only_what_is_used_is_built(void **state)
     virga_context_destroy(&context);
 }
 
-/* The first pass of a step and the first pipeline of a draw can not be built. */
+/* The first pass of a step can not be built. */
 static void a_failed_build_on_use_is_told_by_its_call(void **state)
 {
     gpu_fixture *f = *state;

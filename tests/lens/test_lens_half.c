@@ -1,4 +1,5 @@
-/* test_lens_half.c - half resolution: tiles of every kind beside each other, edges of depth, light. */
+/* test_lens_half.c - half resolution: tiles of every kind beside each other, and light. test_lens_edges.c has its edges
+ * of depth. */
 #include "lens_fixture.h"
 
 static void paint_noise(lens_fixture *f, uint32_t from, uint32_t to, double depth_m)
@@ -56,57 +57,6 @@ static void a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_i
     lens_fixture_close(&f);
 }
 
-static void a_thin_pole_in_focus_has_no_edge_of_its_color_around_it(void **state)
-{
-    (void)state;
-    lens_fixture f;
-    lens_fixture_open(&f, 64, 32, true);
-    lens_paint_all(&f.scene, 500, 0);
-    for (uint32_t y = 0; y < 32; y++)
-        lens_paint(&f.scene, 32, y, 0.25f, 1);
-    lens_fixture_run(&f);
-    for (uint32_t y = 0; y < 32; y++)
-        for (uint32_t x = 0; x < 64; x++)
-            assert_float_equal(lens_result(&f, x, y), x == 32 ? 0.25 : 500, x == 32 ? 1e-3 : 0.5);
-    lens_fixture_close(&f);
-}
-
-static void a_hole_in_a_wall_in_focus_lets_no_blur_out(void **state)
-{
-    (void)state;
-    lens_fixture f;
-    lens_fixture_open(&f, 64, 64, true);
-    lens_paint_all(&f.scene, 0.5f, 1);
-    for (uint32_t y = 27; y < 36; y++) /* not at the edges of texels */
-        for (uint32_t x = 27; x < 36; x++)
-            lens_paint(&f.scene, x, y, 100, 0);
-    lens_fixture_run(&f);
-    for (uint32_t y = 0; y < 64; y++)
-        for (uint32_t x = 0; x < 64; x++) {
-            const bool hole = x >= 27 && x < 36 && y >= 27 && y < 36;
-            assert_float_equal(lens_result(&f, x, y), hole ? 100 : 0.5, hole ? 0.1 : 1e-3);
-        }
-    lens_fixture_close(&f);
-}
-
-/* As at full resolution, see test_lens_edges.c. */
-static void a_near_edge_is_soft_on_both_sides_and_shows_the_wall(void **state)
-{
-    (void)state;
-    lens_fixture f;
-    lens_fixture_open(&f, 64, 48, true);
-    for (uint32_t y = 0; y < 48; y++)
-        for (uint32_t x = 0; x < 64; x++)
-            lens_paint(&f.scene, x, y, x < 32 ? 1 : 0.25f, x < 32 ? 0.5 : 1);
-    lens_fixture_run(&f);
-    for (uint32_t x = 16; x < 48; x++) {
-        const double chord = fmin(fmax(((double)x - 31.5) / 10, -1), 1);
-        const double near = (acos(chord) - chord * sqrt(1 - chord * chord)) / M_PI;
-        assert_float_equal(lens_result(&f, x, 24), 0.25 + 0.75 * near, 0.03);
-    }
-    lens_fixture_close(&f);
-}
-
 /* Through a pole in focus, as it goes out of focus, the sky beside it does not jump. */
 static void an_edge_does_not_jump_as_the_focus_moves(void **state)
 {
@@ -132,9 +82,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_that_are_sharp_far_and_near_are_beside_each_other),
         cmocka_unit_test(a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_it),
-        cmocka_unit_test(a_thin_pole_in_focus_has_no_edge_of_its_color_around_it),
-        cmocka_unit_test(a_hole_in_a_wall_in_focus_lets_no_blur_out),
-        cmocka_unit_test(a_near_edge_is_soft_on_both_sides_and_shows_the_wall),
         cmocka_unit_test(an_edge_does_not_jump_as_the_focus_moves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -14,8 +14,7 @@ YAML
 render() {
     local out=$1
     shift
-    timeout 60 "$virga" render "$work/rain.yaml" -o "$work/$out" --frames "${frames:-1}" --layers beauty,rain \
-        --device "$device" "$@" >"$work/log" 2>&1 || { cat "$work/log"; fail "rendering $out"; }
+    draw rain "$out" --frames "${frames:-1}" --layers beauty,rain "$@"
 }
 
 refuses() {

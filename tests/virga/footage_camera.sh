@@ -17,8 +17,7 @@ YAML
 render() {
     local out=$1
     shift
-    timeout 60 "$virga" render "$work/rain.yaml" -o "$work/$out" --layers beauty,depth,velocity,rain \
-        --device "$device" "$@" >"$work/log" 2>&1 || { cat "$work/log"; fail "rendering $out"; }
+    draw rain "$out" --layers beauty,depth,velocity,rain "$@"
 }
 
 refuses() {
