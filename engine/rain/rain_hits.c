@@ -115,7 +115,9 @@ virga_result virga_rain_find_hits(virga_rain *rain, VkCommandBuffer cmd, const v
                        &changed);
     const virga_rain_pane_gpu pushed = pane_of(rain, &known);
     record(rain, cmd, &pushed);
-    *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, RAIN_HITS_SIZE};
+    const virga_result recorded = virga_recording_result(rain->base.context);
+    if (!recorded)
+        *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, RAIN_HITS_SIZE};
     rain->hits_offset = 0;
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+    return recorded ? recorded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

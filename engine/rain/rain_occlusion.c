@@ -219,7 +219,12 @@ virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, co
     }
     virga_pass_end(rain->base.context, cmd, scope);
     virga_effect_note(&rain->base, cmd, RAIN_DID_MAPS);
-    return VIRGA_OK;
+    const virga_result recorded = virga_recording_result(rain->base.context);
+    if (recorded) { /* some are not drawn: rain falls everywhere until all are */
+        rain->maps_drawn = false;
+        rain->map_count = 0;
+    }
+    return recorded;
 }
 
 /* ---- maps that the host draws */

@@ -345,6 +345,9 @@ virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virg
     virga_dispatch(context, cmd, rain->points, rain->groups);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_VERTICES);
     virga_pass_end(context, cmd, scope);
+    const virga_result recorded = virga_recording_result(context);
+    if (recorded)
+        return recorded;
     *points = (virga_rain_buffer){rain->point_buffer->buffer, 0, rain->point_buffer->size};
     *count = rain->slots;
     memcpy(origin_m, rain->origin, sizeof rain->origin);
