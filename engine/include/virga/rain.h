@@ -215,7 +215,11 @@ VIRGA_API VkDeviceSize virga_rain_estimate(const virga_rain_def *def);
  * occluders move, else when the camera has moved. Without a call the last maps stay in use, as far as they reach.
  *
  * Costs one draw of depth and normal per mesh and map; more where a mesh has holes (cover). settings.occlusion_interval
- * spreads that over several calls. VIRGA_NOT_READY if the rain was created without occlusion. */
+ * spreads that over several calls. VIRGA_NOT_READY if the rain was created without occlusion.
+ *
+ * In a frame that is lost the maps are lost too, as Virga does not keep your meshes: rain then falls everywhere until
+ * the next call. If you draw maps once, draw them again when virga_frames_lost has risen, and tell of lost frames by
+ * virga_frame_dropped: until a loss is known, steps read maps that were never drawn. */
 VIRGA_API virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
                                                  const virga_occluder *occluders, uint32_t count);
 
