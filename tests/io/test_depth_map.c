@@ -154,11 +154,31 @@ static void rays_start_at_the_axis_of_the_camera(void **state)
     expect("a.npy", &def, 1e-6);
 }
 
+/* A barrel; the test finds the directions by halves. */
+static void rays_of_a_lens_are_undone(void **state)
+{
+    (void)state;
+    const depth_map_def def = {
+        .kind = DEPTH_MAP_RAY, .focal = {0.8, 4.0 / 3}, .center = {0.5, 0.5}, .lens = {.k1 = -0.4, .k2 = 0.1}};
+    float along[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        const double seen = hypot(0.25 * (i % WIDTH - 2), 0.25 * (i / WIDTH - 1));
+        double low = 0, high = 1;
+        for (int k = 0; k < 60; k++) {
+            const double r = 0.5 * (low + high);
+            *(r * (1 - 0.4 * r * r + 0.1 * pow(r, 4)) < seen ? &low : &high) = r;
+        }
+        along[i] = (float)(metres_of(i) * sqrt(1 + low * low));
+    }
+    write_npy("a.npy", "<f4", "False", "(3, 5)", along, sizeof along);
+    expect("a.npy", &def, 1e-6);
+}
+
 static void what_is_not_known_is_zero(void **state)
 {
     (void)state;
     const depth_map_def axis = {.kind = DEPTH_MAP_AXIS},
-                        disparity = {DEPTH_MAP_DISPARITY, 0, 0.2, 1000, {0, 0}, {0, 0}};
+                        disparity = {.kind = DEPTH_MAP_DISPARITY, .baseline_m = 0.2, .focal_px = 1000};
     const float values[PIXELS] = {0, -3, NAN, INFINITY, -INFINITY, 1e30f};
     uint32_t width, height;
     float *metres;
@@ -247,6 +267,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(disparity_is_cityscapes, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(rays_are_longer_than_the_axis, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(rays_start_at_the_axis_of_the_camera, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(rays_of_a_lens_are_undone, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_not_known_is_zero, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(wrong_files_are_refused, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(damage_never_crashes, make_folder, remove_folder),

@@ -37,7 +37,9 @@ typedef struct tool_layer {
     virga_result (*draw)(void *state, VkCommandBuffer cmd, const virga_target *target);
     int order; /* layers with a higher order cover those with a lower one */
     tool_layer_depth depth;
-    bool is_data;      /* not a color: not part of the beauty layer, and taken from one sub-frame, not averaged */
+    bool is_data; /* not a color: not part of the beauty layer, and taken from one sub-frame, not averaged */
+    /* (is_data) Its values are pixels right and down: 1 to another place, -1 from a place a frame ago; 0: others. */
+    int offset;
     host_output plate; /* (no draw) the output that holds the layer */
     uint32_t value;    /* (no draw) index of the layer's first value in a pixel of that output */
     /* (draw) In `virga view`. */

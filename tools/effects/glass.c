@@ -498,6 +498,7 @@ static const tool_layer layers[] = {
      .draw = draw_refraction,
      .order = 31,
      .is_data = true,
+     .offset = 1,
      .view_title = "Layer: refraction",
      .view_help = "where drops show the scene from: red right, green down"},
 };

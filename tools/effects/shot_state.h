@@ -74,6 +74,11 @@ typedef struct shot {
     virga_target *layer_target;  /* effects draw into it, each into its own layers */
     virga_target *moving_target; /* target of the pass that draws the velocity of water; NULL: not requested */
 
+    /* Of a lens that bends lines, see distort.h; NULL: none. `options` has the pinhole's size then; `pinhole` is the
+     * newest drawn frame before it is distorted. */
+    struct shot_distortion *distortion;
+    host_drawn pinhole;
+
     struct plate *plate;            /* NULL: none */
     host_buffer plate_buffer;       /* uploads its pixels */
     host_buffer plate_depth_buffer; /* uploads its depth; none without depth */

@@ -439,6 +439,7 @@ static const tool_layer layers[] = {
      .draw = draw_velocity,
      .order = 34,
      .is_data = true,
+     .offset = -1,
      .view_title = "Layer: velocity of water",
      .view_help = "motion of the water's surface: red right, green down"},
 };

@@ -58,7 +58,10 @@ static double ray_length(const depth_map_def *def, uint32_t width, uint32_t heig
 {
     const double x = (((double)(i % width) + 0.5) / width - def->center[0]) / def->focal[0];
     const double y = (((double)(i / width) + 0.5) / height - def->center[1]) / def->focal[1];
-    return sqrt(1 + x * x + y * y);
+    double xy[2] = {x, y};
+    if (distortion_is_given(&def->lens) && !distortion_undo(&def->lens, (const double[]){x, y}, xy))
+        return 1; /* not on a picture that the lens can be undone over */
+    return sqrt(1 + xy[0] * xy[0] + xy[1] * xy[1]);
 }
 
 bool depth_map_read(const char *path, const depth_map_def *def, uint32_t *width, uint32_t *height, float **metres,

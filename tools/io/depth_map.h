@@ -2,6 +2,8 @@
 #ifndef VIRGA_IO_DEPTH_MAP_H
 #define VIRGA_IO_DEPTH_MAP_H
 
+#include "distortion.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,6 +21,7 @@ typedef struct depth_map_def {
     double focal_px;   /* (disparity) in pixels of this picture */
     double focal[2];   /* (ray) focal lengths, and where the axis meets the picture from its upper left corner, */
     double center[2];  /* (ray) in shares of its width and height */
+    distortion lens;   /* (ray) how the lens bends lines */
 } depth_map_def;
 
 /* Whether the name ends as that of a depth map: .exr, .png, .tif, .tiff or .npy. */

@@ -34,6 +34,9 @@ static const scene_row calibration_rows[] = {
     NUMBER(scene_calibration, center_px, -1e5, 1e5, "[0, 0]", RESTARTS,
            "where the camera's axis meets the picture (cx, cy); [0, 0] is the middle of the upper left pixel, and "
            "without it the picture's middle"),
+    NUMBER(scene_calibration, distortion, -1e3, 1e3, "[0, 0, 0, 0, 0]", RESTARTS,
+           "how the lens bends lines: k1, k2, p1, p2, k3, in OpenCV's order; undone before water is drawn and done "
+           "again after"),
 };
 static const scene_group calibration_group = SCENE_GROUP(scene_calibration, calibration_rows);
 
@@ -122,6 +125,12 @@ void scene_camera_calibrated_center(const scene_file *scene, double center_px[2]
         center_px[axis] = given[0] != 0 || given[1] != 0 ? given[axis] + 0.5 : 0.5 * size_px[axis];
 }
 
+distortion scene_camera_distortion(const scene_file *scene)
+{
+    const double *k = scene->camera.calibration.distortion;
+    return (distortion){.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+}
+
 /* Half the height of what the camera shows at a distance of 1. */
 static double half_height(const scene_file *scene)
 {
@@ -156,11 +165,28 @@ double scene_camera_aperture_m(const scene_file *scene)
 
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
+/* Whether the lens can be undone over the whole picture. The shot looks itself where its size is not known here. */
+static bool check_distortion(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_calibration *c = &scene->camera.calibration;
+    distortion_map map = {.lens = scene_camera_distortion(scene)};
+    char reason[256];
+    if (!c->size_px[0] || !distortion_is_given(&map.lens))
+        return true;
+    memcpy(map.size, c->size_px, sizeof map.size);
+    memcpy(map.focal_px, c->focal_px, sizeof map.focal_px);
+    scene_camera_calibrated_center(scene, map.center_px);
+    return distortion_map_open(&map, reason, sizeof reason) ||
+           scene_file_refuse(scene, "camera.calibration.distortion", error, error_size, "%s", reason);
+}
+
 static bool check_calibration(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_calibration *c = &scene->camera.calibration;
     const char *focal = "camera.calibration.focal_px", *size = "camera.calibration.size_px";
-    const bool is_given = c->size_px[0] || c->size_px[1] || c->center_px[0] != 0 || c->center_px[1] != 0;
+    const distortion lens = scene_camera_distortion(scene);
+    const bool is_given =
+        c->size_px[0] || c->size_px[1] || c->center_px[0] != 0 || c->center_px[1] != 0 || distortion_is_given(&lens);
     const double fov_deg = scene_camera_fov_deg(scene);
     if ((c->focal_px[0] > 0) != (c->focal_px[1] > 0) || (is_given && !scene_camera_is_calibrated(scene)))
         return scene_file_refuse(scene, focal, error, error_size, "expected two numbers above 0, got [%g, %g]",
@@ -172,9 +198,10 @@ static bool check_calibration(const scene_file *scene, char *error, size_t error
         return true;
     if (scene->camera.focal_mm > 0)
         return scene_file_refuse(scene, "camera.focal_mm", error, error_size, "expected it without %s", focal);
-    return (fov_deg >= 1 && fov_deg <= 170) ||
-           scene_file_refuse(scene, focal, error, error_size, "expected an angle of view of 1 to 170 degrees, got %.3g",
-                             fov_deg);
+    if (fov_deg < 1 || fov_deg > 170)
+        return scene_file_refuse(scene, focal, error, error_size,
+                                 "expected an angle of view of 1 to 170 degrees, got %.3g", fov_deg);
+    return check_distortion(scene, error, error_size);
 }
 
 static bool check_lens(const scene_file *scene, char *error, size_t error_size)

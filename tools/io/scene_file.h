@@ -10,6 +10,8 @@
 #ifndef VIRGA_IO_SCENE_FILE_H
 #define VIRGA_IO_SCENE_FILE_H
 
+#include "distortion.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -70,9 +72,10 @@ typedef enum scene_blur {
 
 /* What a calibration measures, in pixels of a picture of `size_px`. */
 typedef struct scene_calibration {
-    uint32_t size_px[2]; /* 0, 0: see scene_camera_calibrated_size */
-    double focal_px[2];  /* 0, 0: not calibrated */
-    double center_px[2]; /* from the middle of the upper left pixel; 0, 0: the middle of the picture */
+    uint32_t size_px[2];  /* 0, 0: see scene_camera_calibrated_size */
+    double focal_px[2];   /* 0, 0: not calibrated */
+    double center_px[2];  /* from the middle of the upper left pixel; 0, 0: the middle of the picture */
+    double distortion[5]; /* k1 k2 p1 p2 k3, see distortion.h; all 0: the lens bends nothing */
 } scene_calibration;
 
 /* Where a camera was, from a file; see camera_poses.h. */
@@ -185,10 +188,11 @@ double scene_camera_focal_m(const scene_file *scene);
 double scene_camera_aperture_m(const scene_file *scene); /* 0: a pinhole */
 
 /* Whether camera.calibration gives the angle of view. If so: the size of the picture that its numbers are for, and
- * where the camera's axis meets that picture, from its upper left corner. */
+ * where the camera's axis meets that picture, from its upper left corner, and how its lens bends lines. */
 bool scene_camera_is_calibrated(const scene_file *scene);
 void scene_camera_calibrated_size(const scene_file *scene, uint32_t size_px[2]);
 void scene_camera_calibrated_center(const scene_file *scene, double center_px[2]);
+distortion scene_camera_distortion(const scene_file *scene);
 
 /* The settings of an effect: a struct of the section's size. NULL if the scene was loaded without the section. */
 void *scene_file_section(const scene_file *scene, const scene_section *section);

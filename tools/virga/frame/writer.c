@@ -9,7 +9,7 @@ bool frame_writer_open(frame_writer *w, const shot *s, const char *directory, ui
                        picture_format format, char *error, size_t error_size)
 {
     *w = (frame_writer){.shot = s, .directory = directory, .layers = layers, .preview = preview, .format = format};
-    return host_drawn_create(s->options.width, s->options.height, &w->drawn, error, error_size);
+    return host_drawn_create(s->frame.width, s->frame.height, &w->drawn, error, error_size);
 }
 
 static void *write_frame(void *data)

@@ -2,6 +2,7 @@
 #include "shot/internal.h"
 
 #include "effect.h"
+#include "shot/distort.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
 #include "shot/plate.h"
@@ -251,6 +252,24 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
     return host_submit(&s->device, error, error_size);
 }
 
+/* From the pinhole's picture to that of the lens. The plate keeps its own pixels where nothing was drawn over them. */
+static void distort(shot *s)
+{
+    shot_distortion_kind kinds[HOST_MAX_LAYERS] = {SHOT_DISTORT_COLOR};
+    shot_distortion_plate plate = {.color = NULL};
+    if (s->plate)
+        plate = (shot_distortion_plate){
+            .color = s->plate->picture, .undone = s->lens ? s->plate->rgba : NULL, .depth = s->plate->distance};
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        const tool_layer *layer = s->layers[i].layer;
+        kinds[s->layers[i].output - HOST_LAYER] = !layer->is_data     ? SHOT_DISTORT_COLOR
+                                                  : layer->offset > 0 ? SHOT_DISTORT_OFFSET
+                                                  : layer->offset < 0 ? SHOT_DISTORT_MOTION
+                                                                      : SHOT_DISTORT_DATA;
+    }
+    shot_distortion_redo(s->distortion, &s->pinhole, kinds, s->layer_count, &plate, &s->frame);
+}
+
 bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size)
 {
     shot_camera(s, time_s, shot_focus_inv_m(s, time_s), NULL, camera);
@@ -264,6 +283,8 @@ bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error,
             return false;
     if (!host_wait(&s->device, error, error_size))
         return false;
-    host_accumulator_finish(&s->sums, &s->target, &s->frame);
+    host_accumulator_finish(&s->sums, &s->target, s->distortion ? &s->pinhole : &s->frame);
+    if (s->distortion)
+        distort(s);
     return true;
 }

@@ -125,8 +125,9 @@ void shot_close_lens(shot *s)
 /* What is farthest is blurred the most, but for what is very near. */
 static void warn_of_cut(shot *s, const virga_lens_settings *settings, double focus_inv_m)
 {
-    const double pixels = 0.5 * s->options.height / tan(0.5 * scene_camera_fov_deg(s->scene) * M_PI / 180);
-    const double radius_px = 0.5 * scene_camera_aperture_m(s->scene) * pixels * focus_inv_m;
+    double focal[2], center[2];
+    host_camera_intrinsics(&s->path, s->options.width, s->options.height, focal, center);
+    const double radius_px = 0.5 * scene_camera_aperture_m(s->scene) * focal[1] * s->options.height * focus_inv_m;
     if (s->lens->warned || s->options.live || radius_px <= (double)settings->max_radius_px)
         return;
     host_warn(&s->device, "camera: blur of %.0f pixels is cut to %g; camera.blur=exact cuts none", radius_px,

@@ -2,6 +2,7 @@
 #include "shot/plate.h"
 
 #include "host.h"
+#include "shot/distort.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,10 +58,22 @@ bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames
     return read;
 }
 
+/* Memory for pictures of the shot's size, and for what the pinhole sees of them. */
+static bool allocate(plate *p)
+{
+    const distortion_map *map = p->def.distortion ? &p->def.distortion->map : NULL;
+    const size_t pixels = (size_t)p->def.width * p->def.height;
+    const size_t seen = map ? (size_t)map->pinhole_size[0] * map->pinhole_size[1] : 0;
+    p->picture = malloc(pixels * 4 * sizeof *p->picture);
+    p->distance = p->has_depth ? malloc(pixels * sizeof *p->distance) : NULL;
+    p->rgba = map ? malloc(seen * 4 * sizeof *p->rgba) : p->picture;
+    p->depth = map && p->has_depth ? malloc(seen * sizeof *p->depth) : p->distance;
+    return p->picture && p->rgba && (!p->has_depth || (p->distance && p->depth));
+}
+
 bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint32_t frames[2], char *error,
                 size_t error_size)
 {
-    const size_t pixels = (size_t)def->width * def->height;
     *p = (plate){.def = *def,
                  .pictures = pictures_of(def->pictures, scene_first),
                  .depths = depths_of(def->depths, scene_first),
@@ -69,18 +82,19 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
     if (!plate_files_open(&p->pictures, frames, error, error_size) ||
         (def->depths && !plate_files_open(&p->depths, frames, error, error_size)))
         return false;
-    p->rgba = malloc(pixels * 4 * sizeof *p->rgba);
-    p->depth = p->has_depth ? malloc(pixels * sizeof *p->depth) : NULL;
-    return (p->rgba && (p->depth || !p->has_depth)) ||
-           host_fail(error, error_size, "no memory for a plate of %u x %u", def->width, def->height);
+    return allocate(p) || host_fail(error, error_size, "no memory for a plate of %u x %u", def->width, def->height);
 }
 
 void plate_close(plate *p)
 {
     plate_files_close(&p->pictures);
     plate_files_close(&p->depths);
-    free(p->rgba);
-    free(p->depth);
+    free(p->picture);
+    free(p->distance);
+    if (p->rgba != p->picture)
+        free(p->rgba);
+    if (p->depth != p->distance)
+        free(p->depth);
     *p = (plate){0};
 }
 
@@ -118,7 +132,7 @@ static bool resample(plate *p, const float *rgb, uint32_t width, uint32_t height
         resample_line(rgb + (size_t)row * width * 3, 3, width, rows_done + (size_t)row * p->def.width * 3, 3,
                       p->def.width);
     for (uint32_t column = 0; rows_done && column < p->def.width; column++)
-        resample_line(rows_done + column * 3, (size_t)p->def.width * 3, height, p->rgba + column * 4,
+        resample_line(rows_done + column * 3, (size_t)p->def.width * 3, height, p->picture + column * 4,
                       (size_t)p->def.width * 4, p->def.height);
     free(rows_done);
     return rows_done;
@@ -130,7 +144,7 @@ static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t 
     const size_t pixels = (size_t)p->def.width * p->def.height;
     if (width == p->def.width && height == p->def.height) {
         for (size_t i = 0; i < pixels; i++)
-            memcpy(p->rgba + i * 4, rgb + i * 3, 3 * sizeof *rgb);
+            memcpy(p->picture + i * 4, rgb + i * 3, 3 * sizeof *rgb);
     } else {
         if (!p->warned)
             fprintf(stderr, "virga: --plate: %s is %u x %u, resampled to %u x %u\n", path, width, height, p->def.width,
@@ -140,7 +154,7 @@ static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t 
             return host_fail(error, error_size, "no memory for a plate of %u x %u", width, height);
     }
     for (size_t i = 0; i < pixels; i++)
-        p->rgba[i * 4 + 3] = 1;
+        p->picture[i * 4 + 3] = 1;
     return true;
 }
 
@@ -171,7 +185,7 @@ static bool load_depth(plate *p, uint32_t frame, char *error, size_t error_size)
             const size_t row = (2 * (size_t)y + 1) * height / (2 * (size_t)p->def.height);
             const size_t column = (2 * (size_t)x + 1) * width / (2 * (size_t)p->def.width);
             const double known = metres ? (double)metres[row * width + column] : 0;
-            p->depth[(size_t)y * p->def.width + x] = buffer_depth(p, known > 0 ? known : p->def.depth_m);
+            p->distance[(size_t)y * p->def.width + x] = buffer_depth(p, known > 0 ? known : p->def.depth_m);
         }
     free(metres);
     return true;
@@ -190,6 +204,10 @@ bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
     const bool loaded = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size) &&
                         (!p->has_depth || load_depth(p, frame, error, error_size));
     free(now.rgb);
+    if (loaded && p->def.distortion)
+        shot_distortion_undo_color(p->def.distortion, p->picture, p->rgba);
+    if (loaded && p->def.distortion && p->has_depth)
+        shot_distortion_undo_nearest(p->def.distortion, p->distance, p->depth);
     p->loaded = loaded ? frame : UINT32_MAX;
     return loaded;
 }

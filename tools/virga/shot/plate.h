@@ -10,19 +10,21 @@ typedef struct plate_def {
     const char *pictures, *depths; /* patterns, see plate_files; depths NULL: none */
     transfer_curve curve;
     depth_map_def depth;
-    double depth_m;         /* where a depth is not known; 0: infinity */
-    double near_m, far_m;   /* planes of the camera */
-    uint32_t width, height; /* of the shot */
+    double depth_m;                           /* where a depth is not known; 0: infinity */
+    double near_m, far_m;                     /* planes of the camera */
+    uint32_t width, height;                   /* of the shot's pictures */
+    const struct shot_distortion *distortion; /* of their lens; NULL: none */
 } plate_def;
 
 typedef struct plate {
     plate_def def;
     plate_files pictures, depths;
     bool has_depth;
-    uint32_t loaded; /* frame that is in `rgba` and `depth`; UINT32_MAX: none */
-    float *rgba;     /* linear light: width x height, rows from the top, alpha 1 */
-    float *depth;    /* (has_depth) as the camera's depth buffer: 0 near to 1 far */
-    bool warned;     /* that pictures are resampled */
+    uint32_t loaded;     /* frame that is in `rgba` and `depth`; UINT32_MAX: none */
+    float *picture;      /* linear light: width x height, rows from the top, alpha 1 */
+    float *distance;     /* (has_depth) of its pixels, as the camera's depth buffer: 0 near to 1 far */
+    float *rgba, *depth; /* the same as the pinhole of `distortion` sees it; without it these are the same memory */
+    bool warned;         /* that pictures are resampled */
 } plate;
 
 /* Format and size of the first picture of a pattern, whose frames are as plate_open has them. */

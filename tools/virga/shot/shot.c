@@ -3,6 +3,7 @@
 
 #include "effect.h"
 #include "shot/checkpoint.h"
+#include "shot/distort.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
 #include "shot/plate.h"
@@ -43,8 +44,20 @@ static bool open_plate(shot *s, char *error, size_t error_size)
         .far_m = s->scene->camera.far_m,
         .width = s->options.width,
         .height = s->options.height,
+        .distortion = s->distortion,
     };
-    host_camera_intrinsics(&s->path, def.width, def.height, def.depth.focal, def.depth.center);
+    if (s->distortion) {
+        const distortion_map *map = &s->distortion->map;
+        def.width = map->size[0];
+        def.height = map->size[1];
+        def.depth.lens = map->lens;
+        for (int axis = 0; axis < 2; axis++) {
+            def.depth.focal[axis] = map->focal_px[axis] / map->size[axis];
+            def.depth.center[axis] = map->center_px[axis] / map->size[axis];
+        }
+    } else {
+        host_camera_intrinsics(&s->path, def.width, def.height, def.depth.focal, def.depth.center);
+    }
     return plate_open(s->plate, &def, s->scene->frames.first, s->options.frames, error, error_size) &&
            plate_load(s->plate, s->options.frames[0], error, error_size);
 }
@@ -73,10 +86,38 @@ static bool check_aspect(const shot *s, char *error, size_t error_size)
                              s->options.width, s->options.height, size[0], size[1]);
 }
 
+/* Where the lens bends lines, what follows draws the picture of a pinhole that holds all that the lens shows. In a
+ * window the lens bends nothing. */
+static bool open_distortion(shot *s, char *error, size_t error_size)
+{
+    host_camera_calibration *c = &s->path.calibration;
+    distortion_map map = {.lens = scene_camera_distortion(s->scene), .size = {s->options.width, s->options.height}};
+    char reason[256];
+    double focal[2], center[2];
+    if (!distortion_is_given(&map.lens) || s->options.live)
+        return true;
+    host_camera_intrinsics(&s->path, map.size[0], map.size[1], focal, center);
+    for (int axis = 0; axis < 2; axis++) {
+        map.focal_px[axis] = focal[axis] * map.size[axis];
+        map.center_px[axis] = center[axis] * map.size[axis];
+    }
+    if (!distortion_map_open(&map, reason, sizeof reason))
+        return scene_file_refuse(s->scene, "camera.calibration.distortion", error, error_size, "%s", reason);
+    s->distortion = calloc(1, sizeof *s->distortion);
+    if (!s->distortion)
+        return host_fail(error, error_size, "no memory for the distortion of a lens");
+    memcpy(c->size_px, map.pinhole_size, sizeof c->size_px);
+    memcpy(c->focal_px, map.pinhole_focal_px, sizeof c->focal_px);
+    memcpy(c->center_px, map.pinhole_center_px, sizeof c->center_px);
+    s->options.width = map.pinhole_size[0];
+    s->options.height = map.pinhole_size[1];
+    return shot_distortion_open(s->distortion, &map, error, error_size);
+}
+
 static bool check_input(shot *s, char *error, size_t error_size)
 {
     return shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
-                                   check_aspect(s, error, error_size) &&
+                                   check_aspect(s, error, error_size) && open_distortion(s, error, error_size) &&
                                    shot_check_scene(s->scene, error, error_size) && open_plate(s, error, error_size));
 }
 
@@ -113,8 +154,10 @@ void shot_close_scene(shot *s)
 bool shot_create_picture(shot *s, char *error, size_t error_size)
 {
     const uint32_t width = s->options.width, height = s->options.height;
+    const uint32_t *size = s->distortion ? s->distortion->map.size : (const uint32_t[]){width, height};
     return host_accumulator_create(&s->device, width, height, &s->sums, error, error_size) &&
-           host_drawn_create(width, height, &s->frame, error, error_size);
+           (!s->distortion || host_drawn_create(width, height, &s->pinhole, error, error_size)) &&
+           host_drawn_create(size[0], size[1], &s->frame, error, error_size);
 }
 
 static bool open_all(shot *s, char *error, size_t error_size)
@@ -154,11 +197,15 @@ void shot_close(shot *s)
         host_device_destroy(&s->device);
     }
     host_drawn_destroy(&s->frame);
+    host_drawn_destroy(&s->pinhole);
     if (s->instance.instance)
         host_instance_destroy(&s->instance);
     if (s->plate)
         plate_close(s->plate);
     free(s->plate);
+    if (s->distortion)
+        shot_distortion_close(s->distortion);
+    free(s->distortion);
     free(s->camera_keys);
     memset(s, 0, sizeof *s);
 }
