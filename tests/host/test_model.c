@@ -41,8 +41,8 @@ static int tear_down(void **state)
     fixture *f = *state;
     uint32_t wrong = fixture_end(f);
     free(f);
-    static const char *const names[] = {"plain.obj", "hurt.gltf",   "empty.obj",
-                                        "text.glb",  "picture.obj", "picture.mtl"};
+    static const char *const names[] = {"plain.obj",   "hurt.gltf",   "empty.obj",  "text.glb",
+                                        "picture.obj", "picture.mtl", "lamps.gltf", "lamps.glb"};
     char path[256];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -105,6 +105,107 @@ static void plain_triangle(void **state)
     host_mesh_destroy(&f->device, &mesh);
 }
 
+/* A binary glTF file: the JSON, filled up with spaces to four bytes, and the points of a triangle. */
+static const char *write_glb(const char *name, const char *json)
+{
+    static const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const uint32_t length = (uint32_t)strlen(json), size = (length + 3) / 4 * 4;
+    const uint32_t head[5] = {0x46546c67, 2, 28 + size + sizeof points, size, 0x4e4f534a},
+                   chunk[2] = {sizeof points, 0x4e4942};
+    const char *path = write_file(name, "");
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite(head, sizeof head, 1, file);
+    fprintf(file, "%s%.*s", json, (int)(size - length), "   ");
+    fwrite(chunk, sizeof chunk, 1, file);
+    fwrite(points, sizeof points, 1, file);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+/* Lamps: a triangle each, with the materials in `materials`; lamp i has material order[i]. */
+static const char *write_lamps(const char *materials, const int order[3], bool binary)
+{
+    static char json[4096];
+    char primitives[1024] = "";
+    for (int i = 0; i < 3; i++)
+        snprintf(primitives + strlen(primitives), sizeof primitives - strlen(primitives),
+                 "%s{\"attributes\":{\"POSITION\":0},\"material\":%d}", i ? "," : "", order[i]);
+    const char *buffer = binary ? ""
+                                : ",\"uri\":\"data:application/octet-stream;base64,"
+                                  "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"";
+    const int length =
+        snprintf(json, sizeof json,
+                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+                 "\"extensionsUsed\":[\"KHR_materials_emissive_strength\"],\"meshes\":[{\"primitives\":[%s]}],"
+                 "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":"
+                 "[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{"
+                 "\"byteLength\":36%s}],\"materials\":[%s]}",
+                 primitives, buffer, materials);
+    assert_true(length > 0 && length < (int)sizeof json - 4);
+    return binary ? write_glb("lamps.glb", json) : write_file("lamps.gltf", json);
+}
+
+#define LAMP(name, factor, strength)                                                               \
+    "{" name "\"emissiveFactor\":" factor ",\"extensions\":{\"KHR_materials_emissive_strength\":{" \
+    "\"emissiveStrength\":" strength "}}}"
+
+/* Loads lamps and returns their radiance, times that of a lamp with the same factor and no strength. */
+static void load_lamps(fixture *f, const char *materials, const int order[3], bool binary, float times[3])
+{
+    static const float factor[3] = {1.0f, 0.5f, 0.1f};
+    host_mesh mesh;
+    f->warning[0] = 0;
+    if (!host_mesh_load(&f->device, write_lamps(materials, order, binary), NULL, &mesh, f->error, sizeof f->error))
+        fail_msg("%s", f->error);
+    assert_int_equal(mesh.primitive_count, 3);
+    for (int i = 0; i < 3; i++) {
+        const float *emissive = mesh.materials[mesh.primitives[i].material].emissive;
+        times[i] = emissive[0] / factor[0];
+        for (int c = 1; c < 3; c++)
+            if (fabsf(emissive[c] - factor[c] * times[i]) > 1e-5f * emissive[c])
+                fail_msg("lamp %d: color %d is %g", i, c, (double)emissive[c]);
+    }
+    host_mesh_destroy(&f->device, &mesh);
+}
+
+/* KHR_materials_emissive_strength, in text and binary files; the primitives use materials in another order. */
+static void lamps_have_their_strength(void **state)
+{
+    fixture *f = *state;
+    static const char materials[] = "{\"name\":\"plain\",\"emissiveFactor\":[1,0.5,0.1]}," LAMP(
+        "\"name\":\"strong\",", "[1,0.5,0.1]", "50") "," LAMP("", "[1,0.5,0.1]", "2.5");
+    const int order[3] = {1, 2, 0};
+    for (int binary = 0; binary < 2; binary++) {
+        float times[3];
+        load_lamps(f, materials, order, binary, times);
+        assert_float_equal(times[0], 50.0, 1e-4);
+        assert_float_equal(times[1], 2.5, 1e-5);
+        assert_float_equal(times[2], 1.0, 1e-6);
+        assert_string_equal(f->warning, "");
+    }
+}
+
+static void strengths_that_make_no_sense_are_one(void **state)
+{
+    fixture *f = *state;
+    const int order[3] = {0, 1, 2};
+    float times[3];
+    load_lamps(f,
+               LAMP("\"name\":\"a\",", "[1,0.5,0.1]", "-3") "," LAMP(
+                   "\"name\":\"b\",", "[1,0.5,0.1]", "\"many\"") "," LAMP("\"name\":\"c\",", "[1,0.5,0.1]", "1e300"),
+               order, false, times);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(times[i], 1.0, 1e-6);
+    load_lamps(f,
+               LAMP("\"name\":\"a\",", "[1,0.5,0.1]", "3") "," LAMP("\"name\":\"a\",", "[1,0.5,0.1]", "4") "," LAMP(
+                   "\"name\":\"c\",", "[1,0.5,0.1]", "5"),
+               order, false, times);
+    assert_non_null(strstr(f->warning, "several materials are called \"a\""));
+    assert_float_equal(times[0], 3.0, 1e-5);
+    assert_float_equal(times[2], 5.0, 1e-5);
+}
+
 static void missing_picture(void **state)
 {
     fixture *f = *state;
@@ -163,8 +264,13 @@ static void materials_have_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files),          cmocka_unit_test(plain_triangle),       cmocka_unit_test(missing_picture),
-        cmocka_unit_test(mips_keep_coverage), cmocka_unit_test(materials_have_names),
+        cmocka_unit_test(bad_files),
+        cmocka_unit_test(plain_triangle),
+        cmocka_unit_test(lamps_have_their_strength),
+        cmocka_unit_test(strengths_that_make_no_sense_are_one),
+        cmocka_unit_test(missing_picture),
+        cmocka_unit_test(mips_keep_coverage),
+        cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

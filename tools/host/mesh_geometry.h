@@ -4,6 +4,7 @@
 
 #include <assimp/scene.h>
 
+#include "gltf.h"
 #include "mesh.h"
 #include "texture.h"
 
@@ -11,6 +12,7 @@ typedef struct host_mesh_build {
     host_device *device;
     const struct aiScene *scene;
     const char *path;
+    host_gltf *gltf; /* while materials are read; NULL if the file is no glTF */
     host_mesh *mesh;
     host_vertex *vertices;
     uint32_t *indices;

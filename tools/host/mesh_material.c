@@ -128,6 +128,17 @@ static float clamp01(float value)
     return fminf(fmaxf(value, 0.0f), 1.0f);
 }
 
+static void read_emission(const host_mesh_build *build, const struct aiMaterial *in, host_material *out)
+{
+    float emissive[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    get_color(in, AI_MATKEY_COLOR_EMISSIVE, emissive);
+    /* What Assimp makes of a glTF file depends on its version: 5.2.5 reads no strength. */
+    const float strength = build->gltf ? host_gltf_strength(build->gltf, build->device, out->name, emissive)
+                                       : get_float(in, AI_MATKEY_EMISSIVE_INTENSITY, 1.0f);
+    for (int c = 0; c < 3; c++)
+        out->emissive[c] = emissive[c] * fmaxf(strength, 0.0f);
+}
+
 static void read_surface(const struct aiMaterial *in, host_material *out)
 {
     float shininess = get_float(in, AI_MATKEY_SHININESS, 0.0f);
@@ -138,13 +149,6 @@ static void read_surface(const struct aiMaterial *in, host_material *out)
     if (!get_color(in, AI_MATKEY_BASE_COLOR, out->base_color) &&
         !get_color(in, AI_MATKEY_COLOR_DIFFUSE, out->base_color))
         out->base_color[0] = out->base_color[1] = out->base_color[2] = 0.8f, out->base_color[3] = 1.0f;
-
-    float emissive[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-    get_color(in, AI_MATKEY_COLOR_EMISSIVE, emissive);
-    /* Assimp 5.2.5 does not read glTF's KHR_materials_emissive_strength: there it is 1, whatever the file says. */
-    float strength = get_float(in, AI_MATKEY_EMISSIVE_INTENSITY, 1.0f);
-    for (int c = 0; c < 3; c++)
-        out->emissive[c] = emissive[c] * fmaxf(strength, 0.0f);
 
     int two_sided = 1; /* glTF always has it; in formats without it, surfaces are two-sided */
     aiGetMaterialIntegerArray(in, AI_MATKEY_TWOSIDED, &two_sided, NULL);
@@ -181,6 +185,7 @@ static void read_material(host_mesh_build *build, const struct aiMaterial *in, h
     aiGetMaterialString(in, AI_MATKEY_NAME, &name);
     snprintf(out->name, sizeof out->name, "%.*s", (int)sizeof out->name - 1, name.data);
     read_surface(in, out);
+    read_emission(build, in, out);
 
     out->base_texture = find_texture(build, in, aiTextureType_BASE_COLOR);
     if (out->base_texture < 0)
@@ -204,8 +209,11 @@ bool host_mesh_build_materials(host_mesh_build *build)
     mesh->materials = calloc(count + 1, sizeof *mesh->materials);
     if (!mesh->materials)
         return host_fail(build->error, build->error_size, "%s: out of memory", build->path);
+    build->gltf = host_gltf_read(build->device, build->path);
     for (uint32_t i = 0; i < count; i++)
         read_material(build, build->scene->mMaterials[i], &mesh->materials[i]);
+    host_gltf_free(build->gltf);
+    build->gltf = NULL;
     if (count == 0) {
         mesh->materials[0] = (host_material){
             .name = "default",
