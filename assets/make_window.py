@@ -9,18 +9,19 @@ import random
 
 from gltf_writer import Group, Scene
 
-# Radiance is emit times strength. Discs of lamps share the light of a lamp over their area, so lamps are as bright as
-# real ones are beside a dark street.
+# Radiance is emit times strength. A disc shares the light of a lamp over its area, which is up to some ten times the
+# lamp's: lamps are as bright as their discs need to show their color. Red is purer than that of paint, as real tail
+# lamps are, and so stays red where it is too bright for the picture.
 LAMPS = {
-    "sodium": {"emit": (1.0, 0.55, 0.16), "strength": 160},
-    "white": {"emit": (1.0, 0.86, 0.66), "strength": 130},
-    "headlight": {"emit": (1.0, 0.95, 0.85), "strength": 260},
-    "tail": {"emit": (1.0, 0.03, 0.015), "strength": 60},
-    "brake": {"emit": (1.0, 0.04, 0.02), "strength": 140},
-    "green": {"emit": (0.05, 1.0, 0.45), "strength": 70},
-    "amber": {"emit": (1.0, 0.42, 0.04), "strength": 80},
-    "window": {"emit": (1.0, 0.62, 0.28), "strength": 1.6},
-    "shop": {"emit": (0.55, 0.75, 1.0), "strength": 5},
+    "sodium": {"emit": (1.0, 0.55, 0.16), "strength": 20},
+    "white": {"emit": (1.0, 0.86, 0.66), "strength": 16},
+    "headlight": {"emit": (1.0, 0.95, 0.85), "strength": 40},
+    "tail": {"emit": (1.0, 0.006, 0.003), "strength": 10},
+    "brake": {"emit": (1.0, 0.006, 0.003), "strength": 24},
+    "green": {"emit": (0.02, 1.0, 0.35), "strength": 10},
+    "amber": {"emit": (1.0, 0.30, 0.01), "strength": 12},
+    "window": {"emit": (1.0, 0.62, 0.28), "strength": 0.7},
+    "shop": {"emit": (0.55, 0.75, 1.0), "strength": 1.0},
 }
 MATERIALS = [dict(name="lamp_" + name, colour=(0, 0, 0), rough=1.0, **lamp) for name, lamp in LAMPS.items()]
 MATERIALS += [{"name": "facade", "colour": (0.05, 0.045, 0.042), "rough": 0.95},
