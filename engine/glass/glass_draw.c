@@ -355,7 +355,7 @@ static void record_height_map(virga_glass *glass, VkCommandBuffer cmd)
 }
 
 static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
-                           const glass_view_block *block, VkDescriptorSet set)
+                           const glass_view_block *block, VkDescriptorSet set, bool copies)
 {
     virga_context *context = glass->base.context;
     const struct glass_picture *picture = &glass->picture;
@@ -366,7 +366,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
         record_balls(glass, cmd);
         record_height_map(glass, cmd);
     }
-    if (view->color.view && !glass_keeps_textures(glass, block))
+    if (copies)
         record_copies(glass, cmd, view);
     if (glass_is_textured(&glass->settings))
         glass_record_textures(glass, cmd, block);
@@ -430,14 +430,38 @@ static uint32_t draw_of(const virga_glass *glass, const virga_view *view, const 
            (glass->settings.opaque ? VIRGA_GLASS_DRAW_OPAQUE : side_of(glass, view, pose));
 }
 
-virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
-                                 const virga_glass_pose *pose, double time_s)
+/* Chooses whose copies of the plate a pane uses: those of `plate`, unless the pane keeps its own from an earlier frame,
+ * or unless their owner replaces them while this view still lives. Returns whether it makes its own. */
+static bool choose_copies(virga_glass *glass, const virga_view *view, const glass_view_block *block, glass_plate *plate,
+                          VkImageView *copies)
 {
-    return virga_glass_prepare_view(glass, cmd, view, pose, time_s, NULL);
+    glass_prepared *seen = &glass->picture.prepared[glass->base.slot];
+    *copies = VK_NULL_HANDLE;
+    if (!view->color.view || (seen->has_copies && glass_keeps_textures(glass, block)))
+        return false;
+    if (plate->owner && plate->owner->base.max_views >= glass->base.max_views)
+        *copies = plate->copies;
+    else
+        *plate = (glass_plate){glass, glass->picture.copies->layer_views[0]};
+    seen->has_copies = !*copies;
+    return !*copies;
 }
 
-virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
-                                      const virga_glass_pose *pose, double time_s, virga_prepared *prepared)
+static virga_result check_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                  const virga_glass_pose *pose, double time_s)
+{
+    const virga_result result =
+        virga_effect_check_prepare(&glass->base, "virga_glass_prepare", cmd, pose ? view : NULL, time_s, true);
+    if (result)
+        return result;
+    if (glass_pose_check(&glass->base.context->log, pose))
+        return VIRGA_ERROR_INVALID;
+    return glass->base.contents ? gathers_ready(glass) : VIRGA_NOT_READY;
+}
+
+virga_result glass_prepare_sharing(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                   const virga_glass_pose *pose, double time_s, glass_plate *plate,
+                                   virga_prepared *prepared)
 {
     if (prepared)
         *prepared = 0;
@@ -445,15 +469,7 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
         return VIRGA_ERROR_INVALID;
     virga_context *context = glass->base.context;
     struct glass_picture *picture = &glass->picture;
-    virga_result result =
-        virga_effect_check_prepare(&glass->base, "virga_glass_prepare", cmd, pose ? view : NULL, time_s, true);
-    if (result)
-        return result;
-    if (glass_pose_check(&context->log, pose))
-        return VIRGA_ERROR_INVALID;
-    if (!glass->base.contents)
-        return VIRGA_NOT_READY;
-    result = gathers_ready(glass);
+    virga_result result = check_prepare(glass, cmd, view, pose, time_s);
     if (result)
         return result;
     virga_timers_reset(context, cmd);
@@ -465,8 +481,10 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
                                     &index, &picture->view_offset);
     if (result)
         return result;
-    const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
-    record_prepare(glass, cmd, view, &block, set);
+    VkImageView copies;
+    const bool makes_copies = choose_copies(glass, view, &block, plate, &copies);
+    const VkDescriptorSet set = glass_picture_write_set(glass, index, view, copies);
+    record_prepare(glass, cmd, view, &block, set, makes_copies);
     virga_effect_set_view(&glass->base, set, picture->view_offset, view, prepared);
     glass_prepared *seen = &picture->prepared[glass->base.slot];
     seen->draw = draw_of(glass, view, pose);
@@ -476,6 +494,50 @@ virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, c
     seen->textures = glass_is_textured(&glass->settings);
     seen->front = glass_is_front(&glass->settings);
     return virga_recording_result(context);
+}
+
+virga_result virga_glass_prepare_view(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                      const virga_glass_pose *pose, double time_s, virga_prepared *prepared)
+{
+    glass_plate plate = {0};
+    return glass_prepare_sharing(glass, cmd, view, pose, time_s, &plate, prepared);
+}
+
+virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                 const virga_glass_pose *pose, double time_s)
+{
+    return virga_glass_prepare_view(glass, cmd, view, pose, time_s, NULL);
+}
+
+static bool panes_of_one_context(const virga_glass_pane *panes, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (!panes[i].glass)
+            return false;
+        else if (panes[i].glass->base.context != panes[0].glass->base.context) {
+            virga_wrong_argument(&panes[0].glass->base.context->log,
+                                 "virga_glass_prepare_panes: expected panes of one context, but pane %u is of another",
+                                 i);
+            return false;
+        }
+    return true;
+}
+
+virga_result virga_glass_prepare_panes(VkCommandBuffer cmd, const virga_view *view, virga_glass_pane *panes,
+                                       uint32_t count)
+{
+    virga_result result = VIRGA_OK;
+    glass_plate plate = {0};
+    for (uint32_t i = 0; panes && i < count; i++)
+        panes[i].prepared = 0; /* also of those after an error */
+    if (count && (!panes || !panes_of_one_context(panes, count)))
+        return VIRGA_ERROR_INVALID;
+    for (uint32_t i = 0; i < count && result >= 0; i++) {
+        const virga_result prepared = glass_prepare_sharing(panes[i].glass, cmd, view, &panes[i].pose, panes[i].time_s,
+                                                            &plate, &panes[i].prepared);
+        result = prepared ? prepared : result;
+    }
+    return result;
 }
 
 void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)

@@ -47,7 +47,7 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
 
 /* ---- bindings */
 
-enum { BIND_RELIEF = 12, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIEWS = 28 };
+enum { BIND_RELIEF = 12, BIND_COPIES = 14, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIEWS = 28 };
 
 /* The same bindings as in shaders/glass, where each file declares those it uses. */
 const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
@@ -65,13 +65,14 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     STORAGE_IMAGE(picture.map),                                  /* 11 */
     [BIND_RELIEF] = SAMPLED_IMAGE(FRAGMENT, picture.relief),     /* 12 */
     STORAGE_IMAGE(picture.copies),                               /* 13 copies of the plate, written */
-    {SAMPLED, VIRGA_ALL_STAGES, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
-    [BIND_DEPTH] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 15 */
-    [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 16 */
-    BUFFER(picture.written),                      /* 17 contents of tiles */
-    BUFFER(picture.work),                         /* 18 */
-    BUFFER_IN(VIRGA_ALL_STAGES, picture.corners), /* 19 indices of the draws */
-    STORAGE_IMAGE(picture.relief),                /* 20 */
+    [BIND_COPIES] = {SAMPLED, VIRGA_ALL_STAGES, VIRGA_SOURCE_IMAGE, AT(picture.copies),
+                     .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
+    [BIND_DEPTH] = {SAMPLED, COMPUTE | FRAGMENT},      /* 15 */
+    [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},      /* 16 */
+    BUFFER(picture.written),                           /* 17 contents of tiles */
+    BUFFER(picture.work),                              /* 18 */
+    BUFFER_IN(VIRGA_ALL_STAGES, picture.corners),      /* 19 indices of the draws */
+    STORAGE_IMAGE(picture.relief),                     /* 20 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.mist_map), .sampler = VIRGA_SAMPLER_LINEAR}, /* 21 */
     BUFFER(state),                                                                                  /* 22 */
     SAMPLED_IMAGE(COMPUTE, picture.map),                                                            /* 23 */
@@ -84,13 +85,15 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.textures), .sampler = VIRGA_SAMPLER_LINEAR}, /* 30 */
 };
 
-VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view)
+VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view, VkImageView copies)
 {
     const struct glass_picture *picture = &glass->picture;
     virga_context *context = glass->base.context;
     virga_bound bound[VIRGA_MAX_BINDINGS];
     virga_effect_bound(&glass->base, picture->bindings, bound);
     bound[BIND_RELIEF].sampler = picture->filtered ? context->linear : context->nearest;
+    if (copies)
+        bound[BIND_COPIES].view = copies;
     bound[BIND_DEPTH] = virga_bound_or_blank(&view->depth, picture->blank_depth, context->nearest);
     bound[BIND_COLOR] =
         virga_bound_or_blank(&view->color, picture->blank_color, virga_color_sampler(context, &view->color));

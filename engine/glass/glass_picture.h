@@ -65,6 +65,7 @@ typedef struct glass_prepared {
     glass_view_block textures_view; /* of the newest prepare: what textures depend on */
     uint32_t next_texture;          /* the one whose turn it is */
     uint32_t late_textures;         /* those that do not show that view yet */
+    bool has_copies;                /* its own copies of the plate are those of the newest prepare */
 
     /* Of its newest prepare. */
     bool plate;
@@ -132,8 +133,8 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
 /* GLASS_GATHER_... bits for these settings, without GLASS_GATHER_FILM and _BEADS. */
 uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings);
 
-/* Writes the descriptor set of a view of this frame. */
-VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
+/* Writes the descriptor set of a view of this frame. `copies` of the plate are those of another pane; NULL: its own. */
+VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view, VkImageView copies);
 
 /* All tiles and textures of all views hold unknown contents. */
 void glass_picture_forget(virga_glass *glass);

@@ -338,10 +338,11 @@ virga_result virga_scene_prepare_panes_view(virga_scene *scene, VkCommandBuffer 
         return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
                                     view ? "panes" : "view");
     virga_result result = VIRGA_OK;
+    glass_plate plate = {0};
     for (uint32_t i = 0; i < count && result >= 0; i++) {
         virga_glass *glass = scene_find(scene, &glass_type, i);
-        const virga_result prepared = virga_glass_prepare_view(
-            glass, cmd, view, &panes[i].pose, virga_glass_time(glass), &scene->views[index][effect_of_pane(scene, i)]);
+        const virga_result prepared = glass_prepare_sharing(glass, cmd, view, &panes[i].pose, virga_glass_time(glass),
+                                                            &plate, &scene->views[index][effect_of_pane(scene, i)]);
         result = scene_merge_results(result, prepared);
     }
     return result;

@@ -116,6 +116,34 @@ void call_virga_scene_prepare_panes_view(calls *c)
               calls_below(c, calls_slip(c, 3) ? 10 : 2), &view, panes);
 }
 
+/* Some of them twice, and now and then with one that is NULL or of another context. */
+void call_virga_glass_prepare_panes(calls *c)
+{
+    calls_handle h[3] = {0};
+    virga_glass_pane panes[3] = {0};
+    virga_view view;
+    VkCommandBuffer cmd;
+    const uint32_t count = 1 + calls_below(c, 3);
+    uint32_t flags = CALLS_RECORDS | CALLS_OUTSIDE;
+    for (uint32_t i = 0; i < count; i++) {
+        h[i] = i && calls_below(c, 2) ? h[0] : calls_pick(c, CALLS_GLASS);
+        panes[i] = (virga_glass_pane){.glass = h[i].object, .time_s = virga_glass_time(h[i].object), .prepared = 7};
+        if (!h[i].object)
+            flags |= CALLS_WRONG | CALLS_SILENT;
+        else if (h[0].object && h[i].context != h[0].context)
+            flags |= CALLS_WRONG;
+    }
+    calls_fill_view(c, &view);
+    if (!calls_cmd(c, h[0].context, &flags, &cmd))
+        return;
+    CALLS_TRY(c, h[0].context, flags, virga_glass_prepare_panes, cmd, &view, panes, count);
+    for (uint32_t i = 0; i < count; i++)
+        if (panes[i].prepared == 7)
+            calls_wrong(c, __func__, "left a handle as it was");
+    if (panes[0].prepared)
+        c->prepared[CALLS_GLASS] = panes[0].prepared;
+}
+
 /* Water without foam has nothing to draw. */
 void call_virga_water_draw_data(calls *c)
 {

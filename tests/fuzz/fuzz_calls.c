@@ -94,6 +94,7 @@ static void play_frame(calls *c)
         {"virga_ground_step", NULL, "virga_ground_draw_wet"},
         {"virga_splash_step", "virga_splash_prepare_view", "virga_splash_draw_view", "virga_splash_draw"},
         {"virga_glass_step", "virga_glass_prepare_view", "virga_glass_draw_view", "virga_glass_draw_refraction"},
+        {"virga_glass_step", "virga_glass_prepare_panes", "virga_glass_draw_view", "virga_glass_draw"},
         {"virga_water_step", "virga_water_prepare_view", "virga_water_draw_view", "virga_water_draw_foam"},
         {"virga_water_step", "virga_water_prepare", "virga_water_draw", "virga_water_draw_data"},
         {"virga_fluid_add", "virga_fluid_step"},

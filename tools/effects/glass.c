@@ -456,16 +456,15 @@ static bool find_pane(shot *s, void *state, const char *name, double camera_s, d
 static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
 {
     const glass_state *g = state;
+    virga_glass_pane panes[VIRGA_SCENE_MAX_PANES];
     for (uint32_t i = 0; i < g->count; i++) {
-        virga_glass_pose pose;
         const glass_pane *pane = &g->panes[i];
-        glass_pose_moving(s, pane->from, at->camera_s, &pose);
-        const double time_s = virga_glass_time(pane->glass) - at->late_s;
-        if (!shot_ok(s, virga_glass_prepare(pane->glass, cmd, at->jittered, &pose, time_s), "preparing a pane", error,
-                     error_size))
-            return false;
+        panes[i].glass = pane->glass;
+        panes[i].time_s = virga_glass_time(pane->glass) - at->late_s;
+        glass_pose_moving(s, pane->from, at->camera_s, &panes[i].pose);
     }
-    return true;
+    return shot_ok(s, virga_glass_prepare_panes(cmd, at->jittered, panes, g->count), "preparing the panes", error,
+                   error_size);
 }
 
 /* All panes, distant ones first. */

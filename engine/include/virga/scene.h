@@ -201,8 +201,9 @@ VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cm
 
 /* Prepares the panes of a frame with `defer_panes`, at their own time. Outside rendering, once view->color holds the
  * picture behind them, after virga_scene_record and before virga_scene_draw. `panes`: one per pane of the scene, as in
- * the frame. Costs one virga_glass_prepare per pane. Returns the first error of them, else the last remark;
- * VIRGA_ERROR_INVALID for NULL; and VIRGA_OK for a scene without panes, where there is nothing to do. */
+ * the frame. Costs as virga_glass_prepare_panes, whose rule for draws holds here too. Returns the first error of them,
+ * else the last remark; VIRGA_ERROR_INVALID for NULL; and VIRGA_OK for a scene without panes, where there is nothing to
+ * do. */
 VIRGA_API virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
                                                  const virga_scene_pane *panes);
 
