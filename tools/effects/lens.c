@@ -271,7 +271,7 @@ static double model_bytes(const lens_case *row)
     return sample + tiles + gather + combine;
 }
 
-static const char *const pass_names[] = {"sample", "tiles", "gather", "layers", "combine"};
+static const char *const pass_names[] = {"paper", "sample", "tiles", "gather", "layers", "combine"};
 #define PASSES (sizeof pass_names / sizeof *pass_names)
 
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */
