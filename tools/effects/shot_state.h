@@ -22,6 +22,7 @@ typedef struct shot_options {
     bool stats;                           /* statistics are read, also those that cost device time */
     bool points;                          /* point caches are read back after each step */
     const char *plate;                    /* footage that replaces the opaque scene, see plate.h; NULL: none */
+    const char *ground_mask;              /* (plate) what of it is ground; NULL: all that footage.ground has */
     const char *depth;                    /* (plate) its depth; NULL: footage.depth_m of the scene */
     uint32_t frames[2];                   /* (plate) first and last frame to be drawn */
     bool live;                            /* for shot_live_record */
@@ -79,22 +80,23 @@ typedef struct shot {
     struct shot_distortion *distortion;
     host_drawn pinhole;
 
-    struct plate *plate;            /* NULL: none */
-    host_buffer plate_buffer;       /* uploads its pixels */
-    host_buffer plate_depth_buffer; /* uploads its depth; none without depth */
-    host_buffer state;              /* a saved state, see checkpoint.h; created on first use */
-    uint32_t frame_index;           /* the simulation's current scene frame; first - 1 before the first step */
-    uint64_t step_frame;            /* frame of the device in which the newest step was recorded */
-    uint32_t preroll;               /* remaining frames of the scene's pre-roll */
-    bool began;                     /* the first step was done */
-    double camera_time_s;           /* time of the simulation's current frame */
-    host_camera_key eye_keys[2];    /* (live) the free camera, which replaces the path: a frame ago, and now */
-    bool eye_free;                  /* (live) the free camera is in use */
-    bool focus_picked;              /* (live) the user has picked a focus, which replaces that of the scene: */
-    double picked_inv_m;            /* (live) 1 / its view depth; 0: infinity */
-    struct shot_lens *lens;         /* blurs sub-frames by depth; NULL: none does */
-    char warning[512];              /* newest line that the library logged as warning or error */
-    bool input_wrong;               /* opening failed because of the input, not because of the machine */
+    struct plate *plate;               /* NULL: none */
+    struct plate_ground *plate_ground; /* NULL: it has none */
+    host_buffer plate_buffer;          /* uploads its pixels */
+    host_buffer plate_depth_buffer;    /* uploads its depth; none without depth */
+    host_buffer state;                 /* a saved state, see checkpoint.h; created on first use */
+    uint32_t frame_index;              /* the simulation's current scene frame; first - 1 before the first step */
+    uint64_t step_frame;               /* frame of the device in which the newest step was recorded */
+    uint32_t preroll;                  /* remaining frames of the scene's pre-roll */
+    bool began;                        /* the first step was done */
+    double camera_time_s;              /* time of the simulation's current frame */
+    host_camera_key eye_keys[2];       /* (live) the free camera, which replaces the path: a frame ago, and now */
+    bool eye_free;                     /* (live) the free camera is in use */
+    bool focus_picked;                 /* (live) the user has picked a focus, which replaces that of the scene: */
+    double picked_inv_m;               /* (live) 1 / its view depth; 0: infinity */
+    struct shot_lens *lens;            /* blurs sub-frames by depth; NULL: none does */
+    char warning[512];                 /* newest line that the library logged as warning or error */
+    bool input_wrong;                  /* opening failed because of the input, not because of the machine */
 } shot;
 
 /* Returns whether a library call succeeded. If not, writes an error line with the library's log message. */

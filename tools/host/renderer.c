@@ -183,6 +183,16 @@ bool host_renderer_set_mirror(host_renderer *r, const host_target *target, doubl
     return true;
 }
 
+bool host_renderer_set_footage(host_renderer *r, const host_target *target, const host_mesh *ground, char *error,
+                               size_t error_size)
+{
+    r->footage = ground;
+    if (!r->device->independent_blend)
+        return host_fail(error, error_size, "this device cannot draw wet ground over footage (independentBlend)");
+    return r->pipelines[HOST_PIPELINE_FOOTAGE][false] ||
+           host_renderer_build_footage(r, target->plate_pass, error, error_size);
+}
+
 void host_renderer_haze_mirror(host_renderer *r, host_draw_haze draw, void *user)
 {
     r->draw_haze = draw;

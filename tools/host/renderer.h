@@ -53,6 +53,18 @@ bool host_renderer_describe_mirror(const host_renderer *renderer, virga_target_d
 void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
                          const host_camera *camera, const host_camera *previous);
 
+/* Sets the mesh that is the ground on a picture which replaces the plate; it was added before. Its material has a base
+ * texture, over the whole picture: red is the share of a pixel that is ground. Fails on devices without independent
+ * blending. The device must be idle. */
+bool host_renderer_set_footage(host_renderer *renderer, const host_target *target, const host_mesh *ground, char *error,
+                               size_t error_size);
+
+/* Records what water on that ground changes of the picture: it darkens what is soaked, and mirrors the environment and
+ * other meshes where it stands. Also normal, velocity, water and id of the ground. After host_target_fill_plate. Does
+ * nothing without maps of wet ground. */
+void host_renderer_footage(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
+                           const host_camera *camera, const host_camera *previous);
+
 /* The primitive behind an id of the plate (HOST_ID), or NULL for the sky. */
 const host_primitive *host_renderer_primitive(const host_renderer *renderer, uint32_t id);
 

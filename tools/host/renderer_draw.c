@@ -70,6 +70,7 @@ static bool is_drawn_by(const host_material *material, host_pipeline kind)
     case HOST_PIPELINE_CUTOUT: return material->alpha == HOST_ALPHA_MASK;
     case HOST_PIPELINE_SHADE: return material->alpha != HOST_ALPHA_GLASS;
     case HOST_PIPELINE_GLASS: return material->alpha == HOST_ALPHA_GLASS;
+    case HOST_PIPELINE_FOOTAGE: return true;
     default: return false;
     }
 }
@@ -103,7 +104,7 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
     if (d->from == (pipelines)d->renderer->mirror_pipelines || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */
-    if (kind == HOST_PIPELINE_DEPTH || kind == HOST_PIPELINE_CUTOUT)
+    if (kind == HOST_PIPELINE_DEPTH || kind == HOST_PIPELINE_CUTOUT || kind == HOST_PIPELINE_FOOTAGE)
         level = count;
     draw_indices(d, kind, material->two_sided, first, level);
     draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
@@ -266,6 +267,27 @@ static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const str
     if (frame->mirror[2] > 0.0f && r->draw_haze)
         record_mirror_haze(r, cmd, camera);
     host_mirror_copy_down(&r->mirror, cmd);
+    host_label_end(r->device, cmd);
+}
+
+void host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                           const host_camera *previous)
+{
+    struct host_frame_gpu frame;
+    if (!r->footage || !r->ground.cells)
+        return;
+    drawing d = {.renderer = r, .cmd = cmd, .from = (pipelines)r->pipelines};
+    update_skylight(r, cmd, camera);
+    host_renderer_fill_frame(r, target, camera, previous, &frame);
+    record_frame(r, cmd, &frame);
+    record_mirror(r, cmd, &frame, camera);
+    host_label_begin(r->device, cmd, "footage");
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    host_target_begin_over(target, cmd);
+    for (uint32_t i = 0; i < r->entry_count; i++)
+        if (r->entries[i].mesh == r->footage)
+            draw_entry(&d, &r->entries[i], HOST_PIPELINE_FOOTAGE);
+    host_target_end_plate(target, cmd);
     host_label_end(r->device, cmd);
 }
 

@@ -16,6 +16,7 @@ typedef enum host_pipeline {
     HOST_PIPELINE_GLASS,  /* blended over it */
     HOST_PIPELINE_DRY,    /* instead of these two where no water can lie; not in the mirror, where nothing is wet */
     HOST_PIPELINE_DRY_GLASS,
+    HOST_PIPELINE_FOOTAGE, /* what water changes of ground on a picture */
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,
 } host_pipeline;
@@ -66,6 +67,7 @@ struct host_renderer {
     host_entry *entries;
     uint32_t entry_count;
     uint32_t next_id;
+    const host_mesh *footage; /* see host_renderer_set_footage; NULL: none */
 };
 
 /* renderer_frame.c: the uniforms of a plate. */
@@ -74,6 +76,9 @@ void host_renderer_fill_frame(const host_renderer *renderer, const host_target *
 
 /* renderer_pipelines.c: set layouts, pipeline layout and all pipelines of the plate. */
 bool host_renderer_build_pipelines(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
+
+/* The pipeline of HOST_PIPELINE_FOOTAGE. */
+bool host_renderer_build_footage(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
 
 /* The pipelines of the mirror, which exists already. */
 bool host_renderer_build_mirror(host_renderer *renderer, char *error, size_t error_size);

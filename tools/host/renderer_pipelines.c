@@ -7,6 +7,7 @@
 #include "cutout_frag.spv.h"
 #include "scene_frag.spv.h"
 #include "scene_frag_dry.spv.h"
+#include "scene_frag_footage.spv.h"
 #include "scene_frag_mirror.spv.h"
 #include "scene_vert.spv.h"
 #include "scene_vert_mirror.spv.h"
@@ -37,7 +38,15 @@ static bool create_bindings(host_renderer *r, char *error, size_t error_size)
 
 /* ---- one pipeline ------------------------------------------------------------------------------------------- */
 
-enum { SHADER_SCENE_VERT, SHADER_CUTOUT, SHADER_SCENE_FRAG, SHADER_DRY_FRAG, SHADER_SKY_VERT, SHADER_SKY_FRAG };
+enum {
+    SHADER_SCENE_VERT,
+    SHADER_CUTOUT,
+    SHADER_SCENE_FRAG,
+    SHADER_DRY_FRAG,
+    SHADER_FOOTAGE_FRAG,
+    SHADER_SKY_VERT,
+    SHADER_SKY_FRAG,
+};
 
 #define NO_SHADER (-1)
 
@@ -52,6 +61,7 @@ static const struct {
     [HOST_PIPELINE_GLASS] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_FOOTAGE] = {SHADER_SCENE_VERT, SHADER_FOOTAGE_FRAG, false, true, true, VK_COMPARE_OP_ALWAYS},
     [HOST_PIPELINE_SKY] = {SHADER_SKY_VERT, SHADER_SKY_FRAG, false, true, false, VK_COMPARE_OP_LESS_OR_EQUAL},
 };
 
@@ -63,6 +73,7 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_CUTOUT: return HOST_CODE(cutout_frag);
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
     case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
+    case SHADER_FOOTAGE_FRAG: return HOST_CODE(scene_frag_footage);
     case SHADER_SKY_VERT: return HOST_CODE(sky_vert);
     case SHADER_SKY_FRAG: return mirror ? HOST_CODE(sky_frag_mirror) : HOST_CODE(sky_frag);
     default: return (host_code){0};
@@ -82,8 +93,8 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
 {
     memset(states, 0, HOST_PLATE_COLORS * sizeof *states);
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
-        if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend))
-            states[i] = recipes[kind].blend ? host_blend_over : host_blend_replace;
+        if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend || kind == HOST_PIPELINE_FOOTAGE))
+            states[i] = recipes[kind].blend && i == 0 ? host_blend_over : host_blend_replace;
 }
 
 static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipeline kind, bool two_sided, char *error,
@@ -110,9 +121,11 @@ static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipe
 
 /* ---- all of them -------------------------------------------------------------------------------------------- */
 
-/* Devices without independent blending have meshes without glass. */
+/* Devices without independent blending have meshes without glass. That of footage is built where it has a ground. */
 static bool is_used(const host_renderer *r, const pipeline_set *set, int kind)
 {
+    if (kind == HOST_PIPELINE_FOOTAGE)
+        return false;
     if (set->mirror && (kind == HOST_PIPELINE_DRY || kind == HOST_PIPELINE_DRY_GLASS))
         return false;
     return r->device->independent_blend || !recipes[kind].blend;
@@ -132,6 +145,12 @@ bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *er
 {
     pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
     return create_bindings(r, error, error_size) && build(r, &set, error, error_size);
+}
+
+bool host_renderer_build_footage(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
+{
+    pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
+    return create_pipeline(r, &set, HOST_PIPELINE_FOOTAGE, false, error, error_size);
 }
 
 bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)

@@ -53,11 +53,17 @@ static VkAttachmentDescription drawn(host_output output)
 
 #define READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
 
-static bool create_plate_pass(host_device *device, host_target *target, char *error, size_t error_size)
+/* `over`: what is there is kept. */
+static bool create_plate_pass(host_device *device, bool over, VkRenderPass *pass, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[HOST_PLATE_COLORS + 1];
-    for (uint32_t i = 0; i <= HOST_PLATE_COLORS; i++)
+    for (uint32_t i = 0; i <= HOST_PLATE_COLORS; i++) {
         attachments[i] = drawn((host_output)i);
+        if (!over)
+            continue;
+        attachments[i].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+        attachments[i].initialLayout = attachments[i].finalLayout;
+    }
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES;
     const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
     const host_pass_def def = {
@@ -71,7 +77,7 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
                       VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT},
     };
-    return host_pass_create(device, &def, &target->plate_pass, error, error_size);
+    return host_pass_create(device, &def, pass, error, error_size);
 }
 
 /* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. An attached depth
@@ -165,7 +171,8 @@ static bool create_parts(host_device *device, host_target *target, char *error, 
             return false;
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
         plate[i] = target->images[i].view;
-    return create_plate_pass(device, target, error, error_size) &&
+    return create_plate_pass(device, false, &target->plate_pass, error, error_size) &&
+           create_plate_pass(device, true, &target->over_pass, error, error_size) &&
            create_layer_passes(device, target, error, error_size) &&
            create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
                               &target->plate_framebuffer, error, error_size) &&
@@ -246,6 +253,7 @@ void host_target_destroy(host_device *device, host_target *target)
     vkDestroyFramebuffer(device->device, target->plate_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->layer_pass, NULL);
     vkDestroyRenderPass(device->device, target->plate_pass, NULL);
+    vkDestroyRenderPass(device->device, target->over_pass, NULL);
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
         host_buffer_destroy(device, &target->copies[i]);
         host_image_destroy(device, &target->images[i]);
@@ -258,6 +266,12 @@ void host_target_destroy(host_device *device, host_target *target)
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd)
 {
     host_pass_begin(cmd, target->plate_pass, target->plate_framebuffer, target->width, target->height,
+                    HOST_PLATE_COLORS);
+}
+
+void host_target_begin_over(const host_target *target, VkCommandBuffer cmd)
+{
+    host_pass_begin(cmd, target->over_pass, target->plate_framebuffer, target->width, target->height,
                     HOST_PLATE_COLORS);
 }
 

@@ -30,6 +30,7 @@ typedef struct host_target {
     VkRenderPass plate_pass;  /* clears and draws color, normal, velocity, water, id and depth */
     VkRenderPass layer_pass;  /* clears a layer and draws into it; the plate's color and depth can be sampled */
     VkRenderPass behind_pass; /* draws into `behind` without clearing it; compatible with layer_pass */
+    VkRenderPass over_pass;   /* draws over the plate without clearing it; compatible with plate_pass */
     VkFramebuffer plate_framebuffer, behind_framebuffer;
     VkFramebuffer layer_framebuffers[HOST_MAX_LAYERS];
     uint32_t layer_count;
@@ -101,7 +102,8 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
 
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
-void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_over(const host_target *target, VkCommandBuffer cmd);  /* over a plate that is there */
+void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);   /* either */
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd); /* the first */
 void host_target_begin_output(const host_target *target, VkCommandBuffer cmd, host_output layer);
 void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd); /* over a copy of the plate's color */

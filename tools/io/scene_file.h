@@ -130,10 +130,18 @@ typedef enum scene_footage_light {
     SCENE_LIGHT_OF_SCENE, /* from environment */
 } scene_footage_light;
 
+/* Where the ground is that a plate shows. */
+typedef enum scene_footage_ground {
+    SCENE_FOOTAGE_NO_GROUND,
+    SCENE_FOOTAGE_GROUND_PLANE, /* y = 0 */
+    SCENE_FOOTAGE_GROUND_DEPTH, /* where --depth has it */
+} scene_footage_ground;
+
 /* What the pictures of a plate mean, see --plate. */
 typedef struct scene_footage {
     uint32_t curve;            /* transfer_curve */
     uint32_t light;            /* scene_footage_light */
+    uint32_t ground;           /* scene_footage_ground */
     double depth_m;            /* where --depth gives none; 0: nothing is there, as in the sky */
     uint32_t depth_kind;       /* depth_map_kind */
     double depth_scale;        /* of a value; 0: by the format */

@@ -16,6 +16,11 @@ static const scene_keyword depth_kinds[] = {
 
 static const scene_keyword lights[] = {{"plate", SCENE_LIGHT_OF_PLATE}, {"scene", SCENE_LIGHT_OF_SCENE}, {NULL, 0}};
 
+static const scene_keyword grounds[] = {{"none", SCENE_FOOTAGE_NO_GROUND},
+                                        {"plane", SCENE_FOOTAGE_GROUND_PLANE},
+                                        {"depth", SCENE_FOOTAGE_GROUND_DEPTH},
+                                        {NULL, 0}};
+
 static const scene_row footage_rows[] = {
     CHOICE(scene_footage, curve, curves, "auto", RESTARTS,
            "transfer curve of the plate, undone before rain and done again after; auto: srgb, linear for floats"),
@@ -27,6 +32,9 @@ static const scene_row footage_rows[] = {
            "values of --depth: metres along the camera's axis, along each pixel's ray, or disparity in pixels"),
     NUMBER(scene_footage, depth_scale, 0, 1e6, "0", RESTARTS,
            "times the values of --depth; 0: 1 of floats, 1/256 of whole numbers as KITTI and Cityscapes have it"),
+    CHOICE(scene_footage, ground, grounds, "none", RESTARTS,
+           "where rain lands and wets the plate: plane (y = 0, see camera.height_m), depth (the points of --depth) or "
+           "none; --ground-mask says what of the picture is ground"),
     NUMBER(scene_footage, disparity_base_m, 0, 1000, "0", RESTARTS,
            "distance of the two cameras (for depth_kind: disparity); Cityscapes: 0.2093"),
     NUMBER(scene_footage, disparity_focal_px, 0, 1e6, "0", RESTARTS,

@@ -1,6 +1,7 @@
 #version 460
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
-// mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without.
+// mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOTAGE it is what
+// water changes of ground that is on a picture: its base texture is a mask over the picture.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -143,6 +144,27 @@ void write(vec3 color, float alpha, vec3 n, vec3 eye, vec2 wetness)
 #endif
 }
 
+#ifdef FOOTAGE
+// How the ground looks dry is on the picture. Water lets less of it through, and adds what it mirrors.
+void main()
+{
+    const float road = texture(base_texture, gl_FragCoord.xy / frame.screen.xy).r;
+    const vec3 v = normalize(-in_relative), n = normalize(in_normal);
+    const Water water = water_at(in_relative, n);
+    const float dry = 0.2; // whatever is grey darkens alike
+    vec3 albedo = vec3(dry), f0 = vec3(0.04);
+    float roughness = surface.emissive.w;
+    wet_material(water, 0.0, albedo, roughness, f0);
+    const vec4 moments = sky_moments(n);
+    const vec3 mirrored = under_water(vec3(0.0), v, moments, water);
+    const vec3 seen = under_water(vec3(1.0), v, moments, water) - mirrored;
+    const float through = albedo.g / dry * mix(1.0, seen.g, water.puddle);
+    write(road * water.puddle * mirrored, road * (1.0 - through), n, vec3(0.0),
+          vec2(max(water.damp, water.film), water.depth_mm * 1e-3));
+    if (road < 0.5 / 255.0)
+        discard;
+}
+#else
 void main()
 {
     vec4 base = surface.base_color;
@@ -197,3 +219,4 @@ void main()
     }
     write(color, alpha, n, eye, wetness);
 }
+#endif

@@ -51,13 +51,17 @@ static const option_row rows[] = {
      "NumPy (.npy), named as --plate is. footage.depth_kind of the scene says what its values are. Default: the "
      "distance footage.depth_m, or all rain is before the plate",
      false},
+    {"--ground-mask", 0, "PATTERN",
+     "what of the plate is ground, for footage.ground of the scene: pictures, white where it is, named as --plate is. "
+     "Default: all that lies on the ground's plane or has a depth",
+     false},
     {"--picture", 0, "KIND",
      "also write the beauty as picture.%04d.png, .jpg or .tif, with that curve. KIND is same (as the plate), png, "
      "png16, jpg, tif, tif16, tif32 or none. 8 bits are dithered. Default: same, where there is a plate that is no EXR",
      false},
     {"--resume", 0, NULL,
      "render only the frames that are missing. A folder is refused where its frames have another scene, seed, "
-     "size, samples, layers, velocities or plate",
+     "size, samples, layers, velocities, plate, depth or mask",
      false},
     {"--checkpoint-every", 0, "N",
      "also save the simulation after every N frames, and after the pre-roll: DIR/checkpoint.%04d.virga. A later "
@@ -181,8 +185,11 @@ static bool read_plate(render_job *job, uint32_t size[2])
     const bool of_plate = word && !strcmp(word, "plate");
     job->how.plate = plate;
     job->how.depth = options_value(&job->parsed, "--depth");
+    job->how.ground_mask = options_value(&job->parsed, "--ground-mask");
     if (job->how.depth && !plate)
         return options_complain("render", "--depth: expected a --plate");
+    if (job->how.ground_mask && !plate)
+        return options_complain("render", "--ground-mask: expected a --plate");
     if (of_plate && !plate)
         return options_complain("render", "--size plate: expected a --plate");
     if (!of_plate && !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size))
@@ -271,6 +278,7 @@ static resume_request request_of(const render_job *job)
                             .layers = job->layers,
                             .plate = job->how.plate,
                             .depth = job->how.depth,
+                            .ground_mask = job->how.ground_mask,
                             .water_velocity = job->how.water_velocity,
                             .picture = job->picture,
                             .points = job->points,

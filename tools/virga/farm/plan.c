@@ -101,7 +101,8 @@ static void add_variables(script *out, const farm_plan *plan, const char *progra
 /* Of --points, --stats and the like, simulations need none. */
 static bool is_for_simulation(char *const *arguments, int i)
 {
-    static const char *const with_value[] = {"--set", "--seed", "--device", "--plate"};
+    static const char *const with_value[] = {"--set",   "--seed", "--device",     "--plate",
+                                             "--depth", "--size", "--ground-mask"};
     for (size_t k = 0; k < sizeof with_value / sizeof with_value[0]; k++) {
         const size_t length = strlen(with_value[k]);
         if (!strncmp(arguments[i], with_value[k], length) && strchr("=", arguments[i][length]))

@@ -91,6 +91,9 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
         out[n++] = (exr_attribute){.name = "plate", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.plate};
     if (s->options.depth)
         out[n++] = (exr_attribute){.name = "plateDepth", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.depth};
+    if (s->options.ground_mask)
+        out[n++] =
+            (exr_attribute){.name = "groundMask", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.ground_mask};
     if (s->options.water_velocity)
         out[n++] = (exr_attribute){
             .name = "waterVelocity", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)s->options.water_velocity};
@@ -113,7 +116,7 @@ bool frame_save_exr(const shot *s, const host_drawn *picture, const host_camera 
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, picture->depth[i]);
     exr_parts parts = {.count = 0};
-    exr_attribute attributes[12];
+    exr_attribute attributes[13];
     char hash[32], digits[EXR_UINT_DIGITS];
     collect(s, picture, layers, beauty, distance, &parts);
     const exr_frame file = {.width = picture->width,

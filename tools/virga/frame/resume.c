@@ -53,6 +53,8 @@ static bool matches_request(const resume_request *request, const char *path, con
         return false;
     if (differs(path, "depth", texts[5].text, request->depth ? request->depth : "", error, error_size))
         return false;
+    if (differs(path, "mask", texts[6].text, request->ground_mask ? request->ground_mask : "", error, error_size))
+        return false;
     expected[0] = 0;
     if (request->water_velocity)
         snprintf(expected, sizeof expected, "%u", request->water_velocity);
@@ -89,14 +91,14 @@ static bool find_frame(const resume_request *request, uint32_t frame, bool *ther
 {
     char path[4096], damage[1024];
     exr_header header;
-    exr_text texts[] = {{.name = "seed"},  {.name = "samples"},       {.name = "sceneHash"},
-                        {.name = "plate"}, {.name = "waterVelocity"}, {.name = "plateDepth"}};
+    exr_text texts[] = {{.name = "seed"},          {.name = "samples"},    {.name = "sceneHash"}, {.name = "plate"},
+                        {.name = "waterVelocity"}, {.name = "plateDepth"}, {.name = "groundMask"}};
     *there = false;
     snprintf(path, sizeof path, "%s/frame.%04u.exr", request->directory, frame);
     struct stat info;
     if (stat(path, &info))
         return true;
-    if (!exr_read_header(path, &header, texts, 6, damage, sizeof damage)) {
+    if (!exr_read_header(path, &header, texts, sizeof texts / sizeof texts[0], damage, sizeof damage)) {
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }

@@ -106,13 +106,17 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
 {
     if (s->plate) {
         host_target_fill_plate(&s->target, cmd, &s->plate_buffer, s->plate->has_depth ? &s->plate_depth_buffer : NULL);
-        return true;
+        if (!s->plate_ground)
+            return true;
     }
     for (uint32_t i = 0; tool_effects[i]; i++)
         if (tool_effects[i]->before_plate &&
             !tool_effects[i]->before_plate(s, s->states[i], cmd, camera_s, error, error_size))
             return false;
-    host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
+    if (s->plate)
+        host_renderer_footage(s->renderer, cmd, &s->target, now, frame_ago);
+    else
+        host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
     return true;
 }
 
@@ -258,8 +262,9 @@ static void distort(shot *s)
     shot_distortion_kind kinds[HOST_MAX_LAYERS] = {SHOT_DISTORT_COLOR};
     shot_distortion_plate plate = {.color = NULL};
     if (s->plate)
-        plate = (shot_distortion_plate){
-            .color = s->plate->picture, .undone = s->lens ? s->plate->rgba : NULL, .depth = s->plate->distance};
+        plate = (shot_distortion_plate){.color = s->plate->picture,
+                                        .undone = s->lens || s->plate_ground ? s->plate->rgba : NULL,
+                                        .depth = s->plate_ground ? NULL : s->plate->distance};
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const tool_layer *layer = s->layers[i].layer;
         kinds[s->layers[i].output - HOST_LAYER] = !layer->is_data     ? SHOT_DISTORT_COLOR

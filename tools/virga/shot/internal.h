@@ -45,6 +45,8 @@ bool shot_record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_
 /* ---- load.c: what the scene names */
 
 /* Into s->meshes and s->occluders; into the renderer, where there is one. */
+/* Adds the mesh that was made behind the loaded ones. */
+bool shot_add_mesh(shot *s, bool stops_rain, char *error, size_t error_size);
 bool shot_load_meshes(shot *s, char *error, size_t error_size);
 bool shot_load_environment(shot *s, char *error, size_t error_size);
 

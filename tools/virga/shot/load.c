@@ -6,6 +6,7 @@
 #include "shot/focus.h"
 #include "shot/path.h"
 #include "shot/plate.h"
+#include "shot/plate_ground.h"
 #include "shot/plate_light.h"
 
 #include <math.h>
@@ -14,9 +15,21 @@
 
 /* ---- meshes */
 
+bool shot_add_mesh(shot *s, bool stops_rain, char *error, size_t error_size)
+{
+    host_mesh *mesh = &s->meshes[s->meshes_loaded++];
+    for (uint32_t k = 0; tool_effects[k]; k++)
+        if (tool_effects[k]->mark_mesh)
+            tool_effects[k]->mark_mesh(s->scene, mesh);
+    const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
+    const uint32_t more = stops_rain ? host_mesh_occluders(mesh, s->occluders + s->occluder_count, room) : 0;
+    s->occluder_count += more < room ? more : room;
+    return !s->renderer || host_renderer_add(s->renderer, mesh, error, error_size);
+}
+
 bool shot_load_meshes(shot *s, char *error, size_t error_size)
 {
-    s->meshes = calloc(s->scene->mesh_count ? s->scene->mesh_count : 1, sizeof *s->meshes);
+    s->meshes = calloc(s->scene->mesh_count + plate_ground_meshes(s) + 1, sizeof *s->meshes);
     s->occluders = calloc(SHOT_MAX_OCCLUDERS, sizeof *s->occluders);
     if (!s->meshes || !s->occluders)
         return host_fail(error, error_size, "no memory for meshes");
@@ -26,17 +39,10 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size)
         const char *path = s->scene->meshes[i].file;
         if (!shot_blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
             return false;
-        s->meshes_loaded++;
-        for (uint32_t k = 0; tool_effects[k]; k++)
-            if (tool_effects[k]->mark_mesh)
-                tool_effects[k]->mark_mesh(s->scene, &s->meshes[i]);
-        const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
-        const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
-        s->occluder_count += more < room ? more : room;
-        if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
+        if (!shot_add_mesh(s, true, error, error_size))
             return false;
     }
-    return true;
+    return plate_ground_load_meshes(s, error, error_size);
 }
 
 /* ---- light and camera */

@@ -78,7 +78,7 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
                  .pictures = pictures_of(def->pictures, scene_first),
                  .depths = depths_of(def->depths, scene_first),
                  .loaded = UINT32_MAX};
-    p->has_depth = def->depths || def->depth_m > 0;
+    p->has_depth = def->depths || def->depth_m > 0 || def->keeps_depth;
     if (!plate_files_open(&p->pictures, frames, error, error_size) ||
         (def->depths && !plate_files_open(&p->depths, frames, error, error_size)))
         return false;
@@ -161,7 +161,7 @@ static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t 
 /* ---- depth */
 
 /* As a depth buffer has it, see host_camera_distance. What is farther than the far plane is drawn before it. */
-static float buffer_depth(const plate *p, double metres)
+float plate_buffer_depth(const plate *p, double metres)
 {
     const double near_m = p->def.near_m, far_m = p->def.far_m;
     if (!(metres > 0))
@@ -185,7 +185,7 @@ static bool load_depth(plate *p, uint32_t frame, char *error, size_t error_size)
             const size_t row = (2 * (size_t)y + 1) * height / (2 * (size_t)p->def.height);
             const size_t column = (2 * (size_t)x + 1) * width / (2 * (size_t)p->def.width);
             const double known = metres ? (double)metres[row * width + column] : 0;
-            p->distance[(size_t)y * p->def.width + x] = buffer_depth(p, known > 0 ? known : p->def.depth_m);
+            p->distance[(size_t)y * p->def.width + x] = plate_buffer_depth(p, known > 0 ? known : p->def.depth_m);
         }
     free(metres);
     return true;

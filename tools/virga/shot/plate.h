@@ -10,9 +10,10 @@ typedef struct plate_def {
     const char *pictures, *depths; /* patterns, see plate_files; depths NULL: none */
     transfer_curve curve;
     depth_map_def depth;
-    double depth_m;                           /* where a depth is not known; 0: infinity */
-    double near_m, far_m;                     /* planes of the camera */
-    uint32_t width, height;                   /* of the shot's pictures */
+    bool keeps_depth;       /* it has a depth even where nothing is known of it: the caller fills it */
+    double depth_m;         /* where a depth is not known; 0: infinity */
+    double near_m, far_m;   /* planes of the camera */
+    uint32_t width, height; /* of the shot's pictures */
     const struct shot_distortion *distortion; /* of their lens; NULL: none */
 } plate_def;
 
@@ -35,6 +36,9 @@ bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames
 bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint32_t frames[2], char *error,
                 size_t error_size);
 void plate_close(plate *p);
+
+/* Metres along the camera's axis as its depth buffer has them. */
+float plate_buffer_depth(const plate *p, double metres);
 
 /* Whether there is a picture for a frame. */
 bool plate_has(const plate *p, uint32_t frame);

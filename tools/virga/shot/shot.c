@@ -7,6 +7,7 @@
 #include "shot/focus.h"
 #include "shot/lens.h"
 #include "shot/plate.h"
+#include "shot/plate_ground.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,6 +41,7 @@ static bool open_plate(shot *s, char *error, size_t error_size)
                   .baseline_m = footage->disparity_base_m,
                   .focal_px = footage->disparity_focal_px},
         .depth_m = footage->depth_m,
+        .keeps_depth = footage->ground == SCENE_FOOTAGE_GROUND_PLANE,
         .near_m = s->scene->camera.near_m,
         .far_m = s->scene->camera.far_m,
         .width = s->options.width,
@@ -118,7 +120,8 @@ static bool check_input(shot *s, char *error, size_t error_size)
 {
     return shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
                                    check_aspect(s, error, error_size) && open_distortion(s, error, error_size) &&
-                                   shot_check_scene(s->scene, error, error_size) && open_plate(s, error, error_size));
+                                   shot_check_scene(s->scene, error, error_size) && open_plate(s, error, error_size) &&
+                                   plate_ground_open(s, error, error_size));
 }
 
 bool shot_open_scene(shot *s, char *error, size_t error_size)
@@ -203,6 +206,9 @@ void shot_close(shot *s)
     if (s->plate)
         plate_close(s->plate);
     free(s->plate);
+    if (s->plate_ground)
+        plate_ground_close(s->plate_ground);
+    free(s->plate_ground);
     if (s->distortion)
         shot_distortion_close(s->distortion);
     free(s->distortion);
@@ -266,5 +272,6 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)
 {
     return shot_step(s, frame, error, error_size) && (!s->plate || plate_load(s->plate, frame, error, error_size)) &&
+           plate_ground_load(s, frame, error, error_size) &&
            shot_draw_samples(s, shot_time(s, frame), camera, error, error_size);
 }

@@ -1,0 +1,119 @@
+#!/usr/bin/env bash
+# Ground that footage shows: rain lands and wets it there and nowhere else, as in the scene that the footage is of.
+# Usage: footage_ground.sh VIRGA
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh" "$1" idiff oiiotool python3
+
+# A road between lawns, with a box on it. Its picture is the footage.
+camera='{fov_deg: 50, keys: [{position_m: [0, 1.5, 0], look_at_m: [0, 1.2, -5]}]}'
+printf '%s\n' 'newmtl asphalt' 'Kd 0.15 0.15 0.15' 'newmtl grass' 'Kd 0.1 0.25 0.05' 'newmtl brick' \
+    'Kd 0.4 0.2 0.15' >"$work/world.mtl"
+printf '%s\n' 'mtllib world.mtl' 'usemtl asphalt' 'v -2 0 2' 'v 2 0 2' 'v 2 0 -30' 'v -2 0 -30' 'f 1 2 3 4' \
+    'usemtl grass' 'v -30 0 2' 'v -30 0 -30' 'v 30 0 2' 'v 30 0 -30' 'f 5 1 4 6' 'f 2 7 8 3' \
+    'usemtl brick' 'v 0.3 0 -6' 'v 1.3 0 -6' 'v 1.3 1 -6' 'v 0.3 1 -6' 'f 9 10 11 12' >"$work/world.obj"
+cat >"$work/world.yaml" <<YAML
+virga: 1
+meshes: [{file: world.obj}]
+camera: $camera
+environment: {zenith: [0.5, 0.55, 0.6], horizon: [0.7, 0.7, 0.7], ground: [0.1, 0.1, 0.1]}
+frames: {fps: 24, first: 1, last: 6, size: [160, 90]}
+rain: {rate_mm_h: 15, max_drops: 16384, occlusion_size: 256, haze: 0}
+ground: {on: true, cells: 256, start_wetness: 0.9}
+splash: {gain: 1}
+YAML
+sed 's/^meshes.*/footage: {ground: plane}/; /^environment/d' "$work/world.yaml" >"$work/road.yaml"
+
+draw world plate --frames 1 --layers beauty,depth --set ground.on=false --set rain.rate_mm_h=0 --samples 4
+VIRGA_VALIDATE=0 draw world wanted --frames 6 --layers beauty,depth,splash,wetness
+
+# 255 where a pixel's middle is on the road, 100 where it is on grass 30 cm or more beside it.
+python3 - >"$work/mask.pgm" <<'PY'
+import math
+width, height = 160, 90
+focal, length = 0.5 * height / math.tan(math.radians(25)), math.hypot(0.3, 5)
+print("P2", width, height, 255)
+for y in range(height):
+    for x in range(width):
+        u, v = (x + 0.5 - width / 2) / focal, (height / 2 - y - 0.5) / focal
+        d = u, (v * 5 - 0.3) / length, (-5 - v * 0.3) / length
+        way = -1.5 / d[1] if d[1] < 0 else 1e9
+        at_box = -6 / d[2]
+        box = 0.3 < at_box * d[0] < 1.3 and 0 < 1.5 + at_box * d[1] < 1
+        on = way < 1e8 and way * d[2] > -30 and not box
+        print(255 if on and abs(way * d[0]) < 2 else 100 if on and abs(way * d[0]) > 2.3 else 0)
+PY
+oiiotool "$work/mask.pgm" -o "$work/mask.exr" || exit 1
+footage=(--plate "$work/plate/frame.0001.exr" --ground-mask "$work/mask.exr")
+
+values() {
+    oiiotool "$work/$1/frame.$2.exr" --ch "$3" -d float -o "$work/v.exr" && oiiotool --dumpdata "$work/v.exr"
+}
+
+# Wetness on the road as that of the scene, none beside it; with `rain`, splashes on the road alone, as many as there.
+is_like() {
+    values "$1" 0006 splash.A,splash.G,wetness.Y >"$work/has.txt"
+    values wanted 0006 splash.A,splash.G,wetness.Y >"$work/wanted.txt"
+    oiiotool --dumpdata "$work/mask.exr" >"$work/mask.txt"
+    python3 - "$work" "${2:-}" <<'PY' || fail "$1: not as the scene"
+import re, sys
+def read(name):
+    rows = {}
+    for x, y, rest in re.findall(r"Pixel \((\d+), (\d+)\): (.*)", open(sys.argv[1] + "/" + name).read()):
+        rows[int(x), int(y)] = [float(value) for value in rest.split()]
+    return rows
+has, wanted, mask = read("has.txt"), read("wanted.txt"), read("mask.txt")
+road = [at for at in mask if mask[at][0] > 0.5]
+beside = [at for at in mask if mask[at][0] <= 0.5]
+inner = [at for at in road if all((at[0] + i, at[1] + k) in mask and mask[at[0] + i, at[1] + k][0] > 0.5
+                                  for i in (-1, 0, 1) for k in (-1, 0, 1))]
+wrong = sum(abs(has[at][2] - wanted[at][2]) for at in inner) / len(inner)
+light, wanted_light = (sum(rows[at][1] for at in inner) for rows in (has, wanted))
+far = [at for at in beside if mask[at][0] > 0.25]
+print("wetness %.4f off, splashes %.3f of %.3f" % (wrong, light, wanted_light))
+good = wrong < 0.03 and len(inner) > 1500 and len(far) > 1000
+good = good and max(has[at][2] for at in beside) == 0 and max(has[at][0] for at in far) == 0
+good = good and max(wanted[at][0] for at in far) > 0 and (not sys.argv[2] or 0.5 < light / wanted_light < 2)
+sys.exit(not good)
+PY
+}
+
+draw road plane "${footage[@]}" --frames 6 --layers beauty,depth,splash,wetness
+is_like plane rain
+export VIRGA_VALIDATE=0
+draw road points "${footage[@]}" --depth "$work/plate/frame.0001.exr" --frames 6 --layers beauty,depth,splash,wetness \
+    --set footage.ground=depth --set rain.rate_mm_h=0
+is_like points
+
+# ---- without rain, the plate keeps its pixels beside the mask; on it, it is wet
+
+oiiotool "$work/plate/frame.0001.exr" --ch R,G,B "$work/points/frame.0006.exr" --ch R,G,B --absdiff --chsum \
+    -o "$work/change.exr"
+oiiotool "$work/mask.exr" --addc -0.5 --clamp:min=0:max=0.5 --mulc -2 --addc 1 "$work/change.exr" --mul \
+    -o "$work/beside.exr"
+oiiotool --stats "$work/beside.exr" >"$work/log"
+grep -q 'Stats Max: 0.000000' "$work/log" || { cat "$work/log"; fail "the plate is changed beside its ground"; }
+oiiotool --stats "$work/change.exr" | sed -n 's/.*Stats Avg: \([0-9.]*\).*/\1/p' |
+    awk '{ exit !($1 > 0.01) }' || fail "the ground is not wet"
+
+# ---- what is wrong
+
+refuses() {
+    local expected=$1
+    shift
+    timeout 60 "$virga" render "$work/road.yaml" -o "$work/refused" --frames 1 --device "$device" "$@" \
+        >"$work/log" 2>&1
+    local code=$?
+    [ $code -eq 2 ] || { cat "$work/log"; fail "exit code $code, expected 2: $*"; }
+    grep -qF -e "$expected" "$work/log" || { cat "$work/log"; fail "expected '$expected'"; }
+    [ "$(wc -l <"$work/log")" -eq 1 ] || { cat "$work/log"; fail "more than one line: $*"; }
+}
+refuses '--ground-mask: expected a --plate' --ground-mask "$work/mask.exr"
+refuses '--ground-mask: expected footage.ground' "${footage[@]}" --set footage.ground=none
+refuses '--ground-mask: cannot read' --plate "$work/plate/frame.0001.exr" --ground-mask "$work/none.png"
+refuses 'footage.ground: depth: expected --depth' "${footage[@]}" --set footage.ground=depth
+oiiotool --pattern constant:color=0,0,0 160x90 3 -o "$work/black.exr"
+refuses 'footage.ground: expected ground within 80 m in the picture, found none' \
+    --plate "$work/plate/frame.0001.exr" --ground-mask "$work/black.exr"
+
+[ $failures -eq 0 ] && echo "all is right"
+exit $((failures > 0))

@@ -1,0 +1,365 @@
+/* plate_ground.c - a mesh of what the mask of a plate calls ground, on a plane or where the depth has it. */
+#include "shot/plate_ground.h"
+
+#include "picture.h"
+#include "shot/distort.h"
+#include "shot/focus.h"
+#include "shot/internal.h"
+#include "shot/plate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum {
+    COLUMNS = 320,   /* of the grid over the picture whose points become the mesh */
+    MAX_FRAMES = 64, /* of a camera that moves: of so many the grids are put together */
+};
+
+#define APART_M    2.0  /* and so far it has moved in between */
+#define RANGE_M    80.0 /* ground is not farther away than that */
+#define PLANE_M    2000 /* half the side of the plane that is drawn wet */
+#define STEP_SHARE 1.25 /* neighbors whose depths differ by more are not of one surface */
+
+/* ---- masks */
+
+static bool is_mask(const char *name)
+{
+    picture_kind kind;
+    return picture_kind_of(name, &kind);
+}
+
+static const scene_footage *footage_of(const shot *s)
+{
+    return &s->scene->footage;
+}
+
+bool plate_ground_open(shot *s, char *error, size_t error_size)
+{
+    const char *mask = s->options.ground_mask;
+    if (!s->plate || footage_of(s)->ground == SCENE_FOOTAGE_NO_GROUND)
+        return !mask || host_fail(error, error_size, "--ground-mask: expected footage.ground in the scene");
+    if (footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH && !s->options.depth)
+        return scene_file_refuse(s->scene, "footage.ground", error, error_size, "depth: expected --depth");
+    const size_t pixels = (size_t)s->plate->def.width * s->plate->def.height;
+    plate_ground *g = s->plate_ground = calloc(1, sizeof *s->plate_ground);
+    if (!g)
+        return host_fail(error, error_size, "no memory for the ground of a plate");
+    g->loaded = UINT32_MAX;
+    g->has_masks = mask;
+    g->masks = (plate_files){.option = "--ground-mask",
+                             .endings = "EXR, PNG, JPEG or TIFF",
+                             .takes = is_mask,
+                             .pattern = mask,
+                             .first = s->scene->frames.first};
+    g->picture = malloc(pixels * sizeof *g->picture);
+    g->share = s->distortion ? malloc((size_t)s->options.width * s->options.height * sizeof *g->share) : g->picture;
+    if (!g->picture || !g->share)
+        return host_fail(error, error_size, "no memory for the ground of a plate");
+    for (size_t i = 0; i < pixels; i++)
+        g->picture[i] = 1;
+    return !mask || plate_files_open(&g->masks, s->options.frames, error, error_size);
+}
+
+void plate_ground_close(plate_ground *g)
+{
+    plate_files_close(&g->masks);
+    if (g->share != g->picture)
+        free(g->share);
+    free(g->picture);
+    *g = (plate_ground){0};
+}
+
+static bool load_mask(shot *s, uint32_t frame, char *error, size_t error_size)
+{
+    plate_ground *g = s->plate_ground;
+    const uint32_t width = s->plate->def.width, height = s->plate->def.height;
+    char path[4096], reason[1024];
+    picture mask = {.rgb = NULL};
+    if (g->loaded == frame)
+        return true;
+    if (g->has_masks) {
+        if (!shot_blame_input(s, plate_files_name(&g->masks, frame, path, error, error_size)))
+            return false;
+        if (!shot_blame_input(s, picture_read(path, &mask, reason, sizeof reason)))
+            return host_fail(error, error_size, "--ground-mask: %s", reason);
+    }
+    for (size_t i = 0; mask.rgb && i < (size_t)width * height; i++) {
+        const size_t row = (2 * (i / width) + 1) * mask.height / (2 * (size_t)height);
+        const size_t column = (2 * (i % width) + 1) * mask.width / (2 * (size_t)width);
+        g->picture[i] = fminf(fmaxf(mask.rgb[3 * (row * mask.width + column)], 0), 1);
+    }
+    free(mask.rgb);
+    if (s->distortion)
+        shot_distortion_undo_nearest(s->distortion, g->picture, g->share);
+    g->loaded = frame;
+    return true;
+}
+
+/* ---- where the ground is */
+
+/* Where the ray of a pixel meets the ground, relative to the camera's axes: its way along the axis. 0: nowhere. */
+static double way_to_ground(const shot *s, const host_camera *camera, const double at[2], double direction[3])
+{
+    const float *p = camera->clip_from_view_plain, *m = camera->view_from_world;
+    const double v[3] = {(2 * at[0] / camera->width - 1 + (double)p[8]) / (double)p[0],
+                         (2 * at[1] / camera->height - 1 + (double)p[9]) / (double)p[5], -1};
+    for (int i = 0; i < 3; i++)
+        direction[i] = (double)m[4 * i] * v[0] + (double)m[4 * i + 1] * v[1] + (double)m[4 * i + 2] * v[2];
+    double way = 0;
+    if (footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH) {
+        const size_t pixel = (size_t)at[1] * camera->width + (size_t)at[0];
+        way = host_camera_distance(camera, s->plate->depth[pixel]);
+    } else if (direction[1] < -1e-6) {
+        way = -camera->position_m[1] / direction[1];
+    }
+    return way > camera->near_m && way < RANGE_M ? way : 0;
+}
+
+/* The grid of a mesh while it is made. */
+typedef struct grid {
+    host_vertex *vertices;
+    uint32_t *indices;
+    uint32_t vertex_count, index_count;
+} grid;
+
+/* One quad, counter-clockwise from above, and its part of the normals. */
+static void add_quad(grid *g, const uint32_t corners[4], const double *ways)
+{
+    double least = INFINITY, most = 0;
+    for (int i = 0; i < 4; i++) {
+        least = fmin(least, ways[corners[i]]);
+        most = fmax(most, ways[corners[i]]);
+    }
+    if (!(least > 0) || most > STEP_SHARE * least)
+        return;
+    const uint32_t triangles[6] = {corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]};
+    for (int t = 0; t < 6; t += 3) {
+        const float *a = g->vertices[triangles[t]].position, *b = g->vertices[triangles[t + 1]].position,
+                    *c = g->vertices[triangles[t + 2]].position;
+        const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        const float n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                g->vertices[triangles[t + i]].normal[k] += n[k];
+        memcpy(g->indices + g->index_count, triangles + t, 3 * sizeof *triangles);
+        g->index_count += 3;
+    }
+}
+
+/* Adds what a frame shows: its camera, the loaded mask, and the loaded plate's depth. */
+static bool add_frame(const shot *s, const host_camera *camera, grid *g)
+{
+    const uint32_t step = camera->width > COLUMNS ? camera->width / COLUMNS : 1;
+    const uint32_t columns = (camera->width - 1) / step + 1, rows = (camera->height - 1) / step + 1;
+    const uint32_t first = g->vertex_count, more = columns * rows;
+    host_vertex *vertices = realloc(g->vertices, (first + more) * sizeof *vertices);
+    if (vertices)
+        g->vertices = vertices;
+    uint32_t *indices = realloc(g->indices, (g->index_count + 6 * (size_t)more) * sizeof *indices);
+    if (indices)
+        g->indices = indices;
+    double *ways = calloc(first + more, sizeof *ways);
+    if (!vertices || !indices || !ways) {
+        free(ways);
+        return false;
+    }
+    for (uint32_t i = 0; i < more; i++) {
+        const double at[2] = {(i % columns) * step + 0.5, (double)(i / columns) * step + 0.5};
+        const size_t pixel = (size_t)at[1] * camera->width + (size_t)at[0];
+        double direction[3];
+        const double way = way_to_ground(s, camera, at, direction);
+        ways[first + i] = s->plate_ground->share[pixel] >= 0.5f ? way : 0;
+        vertices[first + i] = (host_vertex){.normal = {0, 1e-12f, 0}};
+        for (int c = 0; c < 3; c++)
+            vertices[first + i].position[c] = (float)(camera->position_m[c] + way * direction[c]);
+    }
+    g->vertex_count += more;
+    for (uint32_t row = 0; row + 1 < rows; row++)
+        for (uint32_t column = 0; column + 1 < columns; column++) {
+            const uint32_t a = first + row * columns + column;
+            add_quad(g, (const uint32_t[]){a, a + columns, a + columns + 1, a + 1}, ways);
+        }
+    free(ways);
+    return true;
+}
+
+/* All that is seen of the ground: in the scene's first frame, and on a plane also in others, as the camera moves on. */
+static bool gather_frames(shot *s, grid *g, char *error, size_t error_size)
+{
+    const scene_frames *frames = &s->scene->frames;
+    const bool all = footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE;
+    double last_m[3] = {INFINITY, 0, 0};
+    uint32_t taken = 0;
+    for (uint32_t frame = frames->first; frame <= (all ? frames->last : frames->first) && taken < MAX_FRAMES; frame++) {
+        host_camera camera;
+        shot_camera(s, shot_time(s, frame), 0, NULL, &camera);
+        const double *m = camera.position_m;
+        if (taken && hypot(hypot(m[0] - last_m[0], m[1] - last_m[1]), m[2] - last_m[2]) < APART_M)
+            continue;
+        if (!plate_has(s->plate, frame)) {
+            if (taken)
+                break;
+            scene_file_refuse(s->scene, "footage.ground", error, error_size,
+                              "expected a picture of the scene's first frame, %u", frame);
+            return shot_blame_input(s, false);
+        }
+        if (!load_mask(s, frame, error, error_size) ||
+            (!all && !shot_blame_input(s, plate_load(s->plate, frame, error, error_size))))
+            return false;
+        if (!add_frame(s, &camera, g))
+            return host_fail(error, error_size, "no memory for the ground of a plate");
+        memcpy(last_m, m, sizeof last_m);
+        taken++;
+    }
+    if (!g->index_count) {
+        scene_file_refuse(s->scene, "footage.ground", error, error_size,
+                          "expected ground within %g m in the picture, found none", RANGE_M);
+        return shot_blame_input(s, false);
+    }
+    return true;
+}
+
+/* ---- meshes */
+
+static const host_material asphalt = {.name = "footage ground, asphalt", .base_color = {1, 1, 1, 1}, .roughness = 0.8f};
+
+static int by_height(const void *a, const void *b)
+{
+    const float left = *(const float *)a, right = *(const float *)b;
+    return (left > right) - (left < right);
+}
+
+/* Height that half of the ground is below, as depth has outliers. */
+static float middle_height(const grid *g)
+{
+    float *heights = malloc(g->index_count * sizeof *heights), middle = 0;
+    for (uint32_t i = 0; heights && i < g->index_count; i++)
+        heights[i] = g->vertices[g->indices[i]].position[1];
+    if (heights) {
+        qsort(heights, g->index_count, sizeof *heights, by_height);
+        middle = heights[g->index_count / 2];
+    }
+    free(heights);
+    return middle;
+}
+
+static void turn_to_unit(grid *g)
+{
+    for (uint32_t i = 0; i < g->vertex_count; i++) {
+        float *n = g->vertices[i].normal;
+        const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int c = 0; c < 3; c++)
+            n[c] /= length;
+    }
+}
+
+static bool make_mesh(shot *s, const grid *g, char *error, size_t error_size)
+{
+    host_mesh *mesh = &s->meshes[s->meshes_loaded];
+    if (!host_mesh_create(&s->device, g->vertices, g->vertex_count, g->indices, g->index_count, &asphalt, mesh, error,
+                          error_size))
+        return false;
+    mesh->apart = true; /* flat ground shades nothing */
+    mesh->primitives[0].low[1] = middle_height(g);
+    return true;
+}
+
+/* The mask is the texture of what is drawn wet. */
+static bool add_texture(shot *s, host_mesh *mesh, char *error, size_t error_size)
+{
+    const host_image_def def = {.format = VK_FORMAT_R8_UNORM,
+                                .extent = {s->options.width, s->options.height, 1},
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                .name = "mask of the ground"};
+    mesh->textures = calloc(1, sizeof *mesh->textures);
+    if (!mesh->textures)
+        return host_fail(error, error_size, "no memory for the ground of a plate");
+    mesh->texture_count = 1;
+    mesh->materials[0].base_texture = 0;
+    return host_image_create(&s->device, &def, &mesh->textures[0], error, error_size);
+}
+
+static bool upload_mask(shot *s, host_mesh *mesh, char *error, size_t error_size)
+{
+    const size_t pixels = (size_t)s->options.width * s->options.height;
+    uint8_t *texels = malloc(pixels);
+    if (!texels)
+        return host_fail(error, error_size, "no memory for the ground of a plate");
+    for (size_t i = 0; i < pixels; i++)
+        texels[i] = (uint8_t)lrintf(255 * s->plate_ground->share[i]);
+    const bool done = host_image_upload(&s->device, &mesh->textures[0], texels, pixels, 1, error, error_size);
+    free(texels);
+    return done;
+}
+
+/* Of a plane, all of it: the mask alone says where. */
+static bool add_look(shot *s, const grid *seen, char *error, size_t error_size)
+{
+    const double *at = s->camera_keys[0].position_m;
+    host_vertex corners[4];
+    uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    for (int i = 0; i < 4; i++)
+        corners[i] = (host_vertex){.position = {(float)(at[0] + (i < 2 ? -PLANE_M : PLANE_M)), 0,
+                                                (float)(at[2] + (i == 1 || i == 2 ? PLANE_M : -PLANE_M))},
+                                   .normal = {0, 1, 0}};
+    const grid plane = {corners, indices, 4, 6};
+    plate_ground *g = s->plate_ground;
+    g->look = s->meshes_loaded;
+    if (!make_mesh(s, footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE ? &plane : seen, error, error_size))
+        return false;
+    host_mesh *mesh = &s->meshes[g->look];
+    return add_texture(s, mesh, error, error_size) && upload_mask(s, mesh, error, error_size) &&
+           shot_add_mesh(s, false, error, error_size) &&
+           host_renderer_set_footage(s->renderer, &s->target, mesh, error, error_size);
+}
+
+uint32_t plate_ground_meshes(const shot *s)
+{
+    return s->plate_ground ? 2 : 0;
+}
+
+bool plate_ground_load_meshes(shot *s, char *error, size_t error_size)
+{
+    grid seen = {.vertices = NULL};
+    if (!s->plate_ground)
+        return true;
+    bool made = gather_frames(s, &seen, error, error_size);
+    if (made)
+        turn_to_unit(&seen);
+    made = made && make_mesh(s, &seen, error, error_size) && shot_add_mesh(s, true, error, error_size) &&
+           (!s->renderer || add_look(s, &seen, error, error_size));
+    free(seen.vertices);
+    free(seen.indices);
+    return made;
+}
+
+/* ---- frames */
+
+static void fill_depth(shot *s, uint32_t frame)
+{
+    host_camera camera;
+    shot_camera(s, shot_time(s, frame), 0, NULL, &camera);
+    for (uint32_t i = 0; i < camera.width * camera.height; i++) {
+        const double at[2] = {i % camera.width + 0.5, (double)(i / camera.width) + 0.5};
+        double direction[3];
+        const double way = s->plate_ground->share[i] >= 0.5f ? way_to_ground(s, &camera, at, direction) : 0;
+        if (way > 0)
+            s->plate->depth[i] = plate_buffer_depth(s->plate, way);
+    }
+}
+
+bool plate_ground_load(shot *s, uint32_t frame, char *error, size_t error_size)
+{
+    plate_ground *g = s->plate_ground;
+    if (!g)
+        return true;
+    const bool other = g->loaded != frame && g->has_masks;
+    if (!load_mask(s, frame, error, error_size))
+        return false;
+    if (footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE && !s->options.depth)
+        fill_depth(s, frame);
+    return !other || !s->renderer || upload_mask(s, &s->meshes[g->look], error, error_size);
+}
