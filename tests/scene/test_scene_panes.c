@@ -364,15 +364,28 @@ static void lay_facade(virga_scene_pane panes[WINDOWS])
     }
 }
 
-/* Each has drops of its own, is drawn, and is timed. */
+/* The panes whose copies of the plate were made in the newest prepare. */
+static uint32_t count_copies(virga_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < WINDOWS; i++)
+        count += virga_scene_glass(scene, i)->picture.prepared[0].has_copies;
+    return count;
+}
+
+/* Each has drops of its own, is drawn, and is timed. All show one copy of the plate. */
 static void check_facade(scene_fixture *f, virga_scene *scene, const virga_target *layer, host_target *target)
 {
     virga_scene_pane panes[WINDOWS];
-    const virga_view view = look_down();
+    virga_view view = look_down();
+    view.color = host_target_color(target);
     const virga_scene_frame frame = {.dt_s = 0.06, .view = &view, .panes = panes};
     lay_facade(panes);
     VkCommandBuffer cmd = begin(f);
+    host_target_begin_plate(target, cmd);
+    host_target_end_plate(target, cmd);
     REQUIRE(virga_scene_record(scene, cmd, &frame) == VIRGA_OK);
+    REQUIRE(count_copies(scene) == 1);
     host_target_begin_layer(target, cmd);
     REQUIRE(virga_scene_draw(scene, cmd, layer) == VIRGA_OK);
     host_target_end_layer(target, cmd);
