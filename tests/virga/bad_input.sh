@@ -2,22 +2,12 @@
 # Broken scene files, meshes, pictures and command lines, one by one, with the address and undefined-behaviour
 # sanitizers: each gives one clear line and exit code 2, and leaves nothing behind. What goes wrong on the way, with
 # all of that right, has exit code 1.
-# Usage: bad_input.sh SOURCE_ROOT BUILD_ROOT
+# Usage: bad_input.sh VIRGA SOURCE_ROOT, with a program that was built with them
 set -u
-source=$1 build=$2/sanitized
+virga=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-if [ ! -f "$build/build.ninja" ]; then
-    # Its shaders are those of the build whose test this is. Meson reads the file again whenever a meson.build changes.
-    "$source/tests/gpu/compiled_shader.sh" "$2" --native-file >"$build.ini"
-    meson setup "$build" "$source" --native-file "$build.ini" \
-        -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled -Dview=disabled \
-        -Ddrive=disabled -Doptimization=0 -Ddebug=false -Dc_args=-g1 -Dcpp_args=-g1 \
-        >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
-fi
-ninja -C "$build" tools/virga/virga >"$work/build.log" 2>&1 || { tail -20 "$work/build.log"; exit 1; }
-virga=$build/tools/virga/virga
 # The drivers and the model loader keep memory of their own until the end; leaks of ours are counted by the tests of
 # the library, in which everything is destroyed and counted.
 export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1 UBSAN_OPTIONS=halt_on_error=1:abort_on_error=1
