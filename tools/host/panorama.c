@@ -51,7 +51,8 @@ static void cubic(float t, float w[4])
 static const float *texel(const panorama *p, int64_t x, int64_t y)
 {
     int64_t w = p->width, h = p->height;
-    x = ((x % w) + w) % w;
+    if (x < 0 || x >= w)
+        x = ((x % w) + w) % w;
     y = y < 0 ? 0 : y >= h ? h - 1 : y;
     return &p->rgba[(y * w + x) * 4];
 }
@@ -64,27 +65,32 @@ static void sample_cubic(const float *texels[4], const float w[4], float out[4])
         float sum = 0.0f;
         for (int i = 0; i < 4; i++)
             sum += w[i] * texels[i][c];
-        out[c] = fminf(fmaxf(sum, fminf(texels[1][c], texels[2][c])), fmaxf(texels[1][c], texels[2][c]));
+        const float a = texels[1][c], b = texels[2][c], low = a < b ? a : b, high = a < b ? b : a;
+        out[c] = sum < low ? low : sum > high ? high : sum;
     }
 }
 
-/* Along one axis at a time: `across` is the panorama's x. */
+/* Along one axis at a time: `across` is the panorama's x. The texels of a row or column lie `step` floats apart, and
+ * which rows or columns are read depends on i alone. */
 static bool enlarge(const panorama *in, uint32_t size, bool across, panorama *out)
 {
     if (!panorama_alloc(out, across ? size : in->width, across ? in->height : size))
         return false;
-    float scale = (float)(across ? in->width : in->height) / (float)size;
+    const float scale = (float)(across ? in->width : in->height) / (float)size;
+    const uint32_t count = across ? in->height : in->width;
+    const size_t step = across ? (size_t)in->width * 4 : 4, out_step = across ? (size_t)size * 4 : 4;
     for (uint32_t i = 0; i < size; i++) {
         float position = ((float)i + 0.5f) * scale - 0.5f, weights[4];
         int64_t first = (int64_t)floorf(position) - 1;
         cubic(position - floorf(position), weights);
-        uint32_t count = across ? in->height : in->width;
-        for (uint32_t j = 0; j < count; j++) {
-            const float *texels[4];
+        const float *texels[4];
+        for (int k = 0; k < 4; k++)
+            texels[k] = across ? texel(in, first + k, 0) : texel(in, 0, first + k);
+        float *to = &out->rgba[across ? (size_t)i * 4 : (size_t)i * in->width * 4];
+        for (uint32_t j = 0; j < count; j++, to += out_step) {
+            sample_cubic(texels, weights, to);
             for (int k = 0; k < 4; k++)
-                texels[k] = across ? texel(in, first + k, j) : texel(in, j, first + k);
-            size_t to = across ? (size_t)j * size + i : (size_t)i * in->width + j;
-            sample_cubic(texels, weights, &out->rgba[to * 4]);
+                texels[k] += step;
         }
     }
     return true;
@@ -232,41 +238,46 @@ static void lobe(float roughness, float samples[BLUR_SAMPLES][4])
     }
 }
 
-static const float *fetch(const panorama *p, const float d[3])
+/* Where the samples of the lobe around the texel (0, y) of `out` fall: `column` and `row` of the texel of `in`, which
+ * is as wide as `out`. Around (x, y) all lie x columns further, as the panorama turns about the vertical axis. */
+static void find_lobe(const panorama *in, const panorama *out, uint32_t y, const float samples[BLUR_SAMPLES][4],
+                      int64_t column[BLUR_SAMPLES], int64_t row[BLUR_SAMPLES])
 {
-    float u = atan2f(d[0], -d[2]) / (2.0f * PI) + 0.5f;
-    float v = acosf(fminf(fmaxf(d[1], -1.0f), 1.0f)) / PI;
-    return texel(p, (int64_t)(u * (float)p->width), (int64_t)(v * (float)p->height));
+    float n[3];
+    direction_of(out, 0, y, 0.0f, n);
+    const float flat = sqrtf(n[0] * n[0] + n[2] * n[2]); /* never 0: rows lie between the poles */
+    const float side[3] = {n[2] / flat, 0.0f, -n[0] / flat};
+    const float up[3] = {n[1] * side[2], n[2] * side[0] - n[0] * side[2], -n[1] * side[0]};
+    for (int i = 0; i < BLUR_SAMPLES; i++) {
+        float d[3];
+        for (int c = 0; c < 3; c++)
+            d[c] = samples[i][0] * side[c] + samples[i][1] * up[c] + samples[i][2] * n[c];
+        const float u = atan2f(d[0], -d[2]) / (2.0f * PI) + 0.5f;
+        const float v = acosf(fminf(fmaxf(d[1], -1.0f), 1.0f)) / PI;
+        column[i] = (int64_t)(u * (float)in->width);
+        row[i] = (int64_t)(v * (float)in->height);
+    }
 }
 
 void panorama_blur(const panorama *in, float roughness, panorama *out)
 {
     float samples[BLUR_SAMPLES][4];
+    int64_t column[BLUR_SAMPLES], row[BLUR_SAMPLES];
     lobe(roughness, samples);
-    for (uint32_t y = 0; y < out->height; y++)
+    for (uint32_t y = 0; y < out->height; y++) {
+        find_lobe(in, out, y, samples, column, row);
         for (uint32_t x = 0; x < out->width; x++) {
-            float n[3], side[3], sum[3] = {0}, weight = 0.0f;
-            direction_of(out, x, y, 0.0f, n);
-            float flat = sqrtf(n[0] * n[0] + n[2] * n[2]); /* never 0: rows lie between the poles */
-            side[0] = n[2] / flat;
-            side[1] = 0.0f;
-            side[2] = -n[0] / flat;
-            const float up[3] = {n[1] * side[2], n[2] * side[0] - n[0] * side[2], -n[1] * side[0]};
+            float sum[3] = {0}, weight = 0.0f;
             for (int i = 0; i < BLUR_SAMPLES; i++) {
-                const float *s = samples[i];
-                float d[3];
-                if (s[3] <= 0.0f)
-                    continue;
+                const float *t = texel(in, column[i] + x, row[i]);
                 for (int c = 0; c < 3; c++)
-                    d[c] = s[0] * side[c] + s[1] * up[c] + s[2] * n[c];
-                const float *t = fetch(in, d);
-                for (int c = 0; c < 3; c++)
-                    sum[c] += s[3] * t[c];
-                weight += s[3];
+                    sum[c] += samples[i][3] * t[c];
+                weight += samples[i][3];
             }
             float *to = &out->rgba[((size_t)y * out->width + x) * 4];
             for (int c = 0; c < 3; c++)
                 to[c] = sum[c] / weight;
             to[3] = 1.0f;
         }
+    }
 }

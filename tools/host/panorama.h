@@ -31,7 +31,7 @@ void panorama_project(const panorama *p, float rotation, float sh[9][3]);
 /* The harmonics of one direction, in the order of host_environment::sh. */
 void panorama_basis(const float direction[3], float basis[9]);
 
-/* Blurs the panorama by a GGX lobe of this roughness. `out` has its size already. */
+/* Blurs the panorama by a GGX lobe of this roughness. `out` has its size already, which is that of `in`. */
 void panorama_blur(const panorama *in, float roughness, panorama *out);
 
 #endif
