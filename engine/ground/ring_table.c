@@ -90,17 +90,22 @@ static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DE
             weights[i][layer] = (float)(w->start[i] * cos(w->omega[i][layer] * t) * exp(-w->gamma[i][layer] * t));
 }
 
+/* J1 of all waves at radius r, then their sums: apart, so that the second loop is one of vectors. */
 static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double step, double r,
                       float sums[VIRGA_RING_DEPTHS])
 {
-    memset(sums, 0, VIRGA_RING_DEPTHS * sizeof sums[0]);
+    float values[NUMBERS];
+    const float scale = (float)(step * r * J1_STEPS);
     for (int i = 0; i < NUMBERS; i++) {
-        const double x = (i + 0.5) * step * r * J1_STEPS;
+        const float x = ((float)i + 0.5f) * scale;
         const int left = (int)x;
-        const float value = bessel[left] + (float)(x - left) * (bessel[left + 1] - bessel[left]);
-        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
-            sums[layer] += weights[i][layer] * value;
+        values[i] = bessel[left] + (x - (float)left) * (bessel[left + 1] - bessel[left]);
     }
+    float sum[VIRGA_RING_DEPTHS] = {0};
+    for (int i = 0; i < NUMBERS; i++)
+        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+            sum[layer] += weights[i][layer] * values[i];
+    memcpy(sums, sum, sizeof sum);
 }
 
 /* All depths of a width, from layer `first` on. */
@@ -131,16 +136,20 @@ void ring_table_fill(float *slope, double blur_m)
 
 uint16_t ring_half(float number)
 {
-    const int sign = signbit(number) ? 0x8000 : 0;
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    const uint32_t sign = bits >> 16 & 0x8000;
     const float size = fabsf(number);
     if (!(size < 65520)) /* halfway from the largest half float to the next power of two */
         return (uint16_t)(sign | 0x7c00);
-    int exponent = -13; /* below 2^-14 all half floats are whole numbers of 2^-24 */
-    if (size >= 0x1p-14f)
-        frexpf(size, &exponent); /* size is in [2^(exponent - 1); 2^exponent), which has 1024 half floats */
-    const int whole = (int)nearbyintf(ldexpf(size, 11 - exponent));
-    /* Rounding up to the next power of two carries into the exponent, as it should. */
-    return (uint16_t)(sign | (whole + (exponent + 13) * 1024));
+    if (size < 0x1p-14f) { /* whole numbers of 2^-24, and 2^-24 is the distance of floats from 0.5 on */
+        const float rounded = size + 0.5f;
+        memcpy(&bits, &rounded, sizeof bits);
+        return (uint16_t)(sign | (bits - 0x3f000000));
+    }
+    bits &= 0x7fffffff;
+    /* 13 digits less, to even where halfway; carrying into the exponent is right. Its bias is 15 in place of 127. */
+    return (uint16_t)(sign | (((bits + 0xfff + (bits >> 13 & 1)) >> 13) - (112 << 10)));
 }
 
 double ring_table_slope(const float *slope, int layer, double r, double t)
