@@ -95,6 +95,17 @@ grep -q 'Stats Max: 0.000000' "$work/log" || { cat "$work/log"; fail "the plate 
 oiiotool --stats "$work/change.exr" | sed -n 's/.*Stats Avg: \([0-9.]*\).*/\1/p' |
     awk '{ exit !($1 > 0.01) }' || fail "the ground is not wet"
 
+# ---- water mirrors the box that stands on the road, as it does in the scene
+
+mean() {
+    oiiotool "$work/$1/frame.0006.exr" --ch G -d float --cut "$2" -o "$work/mean.exr"
+    oiiotool --stats "$work/mean.exr" | sed -n 's/.*Stats Avg: \([0-9.]*\).*/\1/p'
+}
+echo "$(mean points 8x5+89+65) $(mean points 8x5+65+65) $(mean wanted 8x5+89+65) $(mean wanted 8x5+65+65)" |
+    awk '{ print "below the box", $1 / $2, "of the road beside it, scene", $3 / $4
+           exit !($1 < 0.5 * $2 && $3 < 0.5 * $4 && $2 < 1.2 * $4 && $2 > 0.8 * $4) }' ||
+    fail "the box is not mirrored, or the road is not as bright as the scene's"
+
 # ---- what is wrong
 
 refuses() {

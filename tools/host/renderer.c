@@ -86,6 +86,7 @@ void host_renderer_destroy(host_renderer **renderer)
         free(r->entries[i].sets);
     }
     free(r->entries);
+    vkDestroyDescriptorPool(vk, r->footage_pool, NULL);
     for (int i = 0; i < HOST_PIPELINE_COUNT * 2; i++) {
         vkDestroyPipeline(vk, r->pipelines[i / 2][i % 2], NULL);
         vkDestroyPipeline(vk, r->mirror_pipelines[i / 2][i % 2], NULL);
@@ -189,6 +190,14 @@ bool host_renderer_set_footage(host_renderer *r, const host_target *target, cons
     r->footage = ground;
     if (!r->device->independent_blend)
         return host_fail(error, error_size, "this device cannot draw wet ground over footage (independentBlend)");
+    if (!r->footage_pool &&
+        (!host_set_pool_create(r->device, &host_material_shape, 1, &r->footage_pool, error, error_size) ||
+         !host_sets_allocate(r->device, r->footage_pool, r->material_layout, 1, &r->footage_set, error, error_size)))
+        return false;
+    host_set_write_image(r->device, r->footage_set, 0, r->samplers[HOST_SAMPLE_LINEAR], target->images[HOST_COLOR].view,
+                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    host_set_write_image(r->device, r->footage_set, 1, r->samplers[HOST_SAMPLE_NEAREST],
+                         target->images[HOST_DEPTH].view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     return r->pipelines[HOST_PIPELINE_FOOTAGE][false] ||
            host_renderer_build_footage(r, target->plate_pass, error, error_size);
 }

@@ -55,7 +55,8 @@ void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const hos
 
 /* Sets the mesh that is the ground on a picture which replaces the plate; it was added before. Its material has a base
  * texture, over the whole picture: red is the share of a pixel that is ground. Fails on devices without independent
- * blending. The device must be idle. */
+ * blending. The device must be idle. Before host_renderer_set_mirror: the mirror shows the picture, by
+ * its depth. */
 bool host_renderer_set_footage(host_renderer *renderer, const host_target *target, const host_mesh *ground, char *error,
                                size_t error_size);
 

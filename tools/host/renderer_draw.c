@@ -146,7 +146,11 @@ static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines fr
     draw_entries(r, cmd, from, HOST_PIPELINE_DEPTH);
     draw_entries(r, cmd, from, HOST_PIPELINE_CUTOUT);
     draw_entries(r, cmd, from, HOST_PIPELINE_SHADE);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[HOST_PIPELINE_SKY][1]);
+    const host_pipeline sky = r->footage ? HOST_PIPELINE_FOOTAGE_MIRROR : HOST_PIPELINE_SKY;
+    if (r->footage)
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1, &r->footage_set, 0,
+                                NULL);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[sky][1]);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     draw_entries(r, cmd, from, HOST_PIPELINE_GLASS);
 }

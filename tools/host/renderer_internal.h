@@ -16,7 +16,8 @@ typedef enum host_pipeline {
     HOST_PIPELINE_GLASS,  /* blended over it */
     HOST_PIPELINE_DRY,    /* instead of these two where no water can lie; not in the mirror, where nothing is wet */
     HOST_PIPELINE_DRY_GLASS,
-    HOST_PIPELINE_FOOTAGE, /* what water changes of ground on a picture */
+    HOST_PIPELINE_FOOTAGE,        /* what water changes of ground on a picture */
+    HOST_PIPELINE_FOOTAGE_MIRROR, /* instead of the sky in the mirror, where a picture replaces the plate */
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,
 } host_pipeline;
@@ -68,6 +69,8 @@ struct host_renderer {
     uint32_t entry_count;
     uint32_t next_id;
     const host_mesh *footage; /* see host_renderer_set_footage; NULL: none */
+    VkDescriptorPool footage_pool;
+    VkDescriptorSet footage_set; /* color and depth of the plate that it replaces */
 };
 
 /* renderer_frame.c: the uniforms of a plate. */
@@ -80,7 +83,7 @@ bool host_renderer_build_pipelines(host_renderer *renderer, VkRenderPass pass, c
 /* The pipeline of HOST_PIPELINE_FOOTAGE. */
 bool host_renderer_build_footage(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
 
-/* The pipelines of the mirror, which exists already. */
+/* The pipelines of the mirror, which exists already; after host_renderer_set_footage. */
 bool host_renderer_build_mirror(host_renderer *renderer, char *error, size_t error_size);
 
 #endif

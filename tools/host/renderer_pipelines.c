@@ -5,6 +5,7 @@
 #include "renderer_internal.h"
 
 #include "cutout_frag.spv.h"
+#include "footage_mirror_frag.spv.h"
 #include "scene_frag.spv.h"
 #include "scene_frag_dry.spv.h"
 #include "scene_frag_footage.spv.h"
@@ -44,6 +45,7 @@ enum {
     SHADER_SCENE_FRAG,
     SHADER_DRY_FRAG,
     SHADER_FOOTAGE_FRAG,
+    SHADER_FOOTAGE_MIRROR,
     SHADER_SKY_VERT,
     SHADER_SKY_FRAG,
 };
@@ -62,6 +64,8 @@ static const struct {
     [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_FOOTAGE] = {SHADER_SCENE_VERT, SHADER_FOOTAGE_FRAG, false, true, true, VK_COMPARE_OP_ALWAYS},
+    [HOST_PIPELINE_FOOTAGE_MIRROR] = {SHADER_SKY_VERT, SHADER_FOOTAGE_MIRROR, true, true, false,
+                                      VK_COMPARE_OP_LESS_OR_EQUAL},
     [HOST_PIPELINE_SKY] = {SHADER_SKY_VERT, SHADER_SKY_FRAG, false, true, false, VK_COMPARE_OP_LESS_OR_EQUAL},
 };
 
@@ -74,6 +78,7 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
     case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
     case SHADER_FOOTAGE_FRAG: return HOST_CODE(scene_frag_footage);
+    case SHADER_FOOTAGE_MIRROR: return HOST_CODE(footage_mirror_frag);
     case SHADER_SKY_VERT: return HOST_CODE(sky_vert);
     case SHADER_SKY_FRAG: return mirror ? HOST_CODE(sky_frag_mirror) : HOST_CODE(sky_frag);
     default: return (host_code){0};
@@ -107,7 +112,7 @@ static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipe
         .fragment = code_of(recipes[kind].fragment, set->mirror),
         .layout = r->bindings.layout,
         .pass = set->pass,
-        .attribute_count = kind == HOST_PIPELINE_SKY ? 0 : 3,
+        .attribute_count = recipes[kind].vertex == SHADER_SKY_VERT ? 0 : 3,
         .cull = two_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
         .front = set->mirror ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .depth_test = true,
@@ -121,10 +126,10 @@ static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipe
 
 /* ---- all of them -------------------------------------------------------------------------------------------- */
 
-/* Devices without independent blending have meshes without glass. That of footage is built where it has a ground. */
+/* Devices without independent blending have meshes without glass. Those of footage are built where it has a ground. */
 static bool is_used(const host_renderer *r, const pipeline_set *set, int kind)
 {
-    if (kind == HOST_PIPELINE_FOOTAGE)
+    if (kind == HOST_PIPELINE_FOOTAGE || kind == HOST_PIPELINE_FOOTAGE_MIRROR)
         return false;
     if (set->mirror && (kind == HOST_PIPELINE_DRY || kind == HOST_PIPELINE_DRY_GLASS))
         return false;
@@ -156,5 +161,6 @@ bool host_renderer_build_footage(host_renderer *r, VkRenderPass pass, char *erro
 bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)
 {
     pipeline_set set = {.pass = r->mirror.pass, .colors = 2, .mirror = true, .pipelines = r->mirror_pipelines};
-    return build(r, &set, error, error_size);
+    return build(r, &set, error, error_size) &&
+           (!r->footage || create_pipeline(r, &set, HOST_PIPELINE_FOOTAGE_MIRROR, true, error, error_size));
 }

@@ -21,6 +21,8 @@ enum {
 #define APART_M    2.0  /* and so far it has moved in between */
 #define RANGE_M    80.0 /* ground is not farther away than that */
 #define PLANE_M    2000 /* half the side of the plane that is drawn wet */
+#define BORDER     1.2  /* the grid is larger than the picture by that */
+#define NEAR_M     0.5f
 #define STEP_SHARE 1.25 /* neighbors whose depths differ by more are not of one surface */
 
 /* ---- masks */
@@ -100,15 +102,21 @@ static bool load_mask(shot *s, uint32_t frame, char *error, size_t error_size)
 
 /* ---- where the ground is */
 
-/* Where the ray of a pixel meets the ground, relative to the camera's axes: its way along the axis. 0: nowhere. */
-static double way_to_ground(const shot *s, const host_camera *camera, const double at[2], double direction[3])
+/* The direction of a place of the picture, 1 along the camera's axis. */
+static void direction_of(const host_camera *camera, const double at[2], double direction[3])
 {
     const float *p = camera->clip_from_view_plain, *m = camera->view_from_world;
     const double v[3] = {(2 * at[0] / camera->width - 1 + (double)p[8]) / (double)p[0],
                          (2 * at[1] / camera->height - 1 + (double)p[9]) / (double)p[5], -1};
     for (int i = 0; i < 3; i++)
         direction[i] = (double)m[4 * i] * v[0] + (double)m[4 * i + 1] * v[1] + (double)m[4 * i + 2] * v[2];
+}
+
+/* Where the ray of a pixel meets the ground: its way along the axis. 0: nowhere. */
+static double way_to_ground(const shot *s, const host_camera *camera, const double at[2], double direction[3])
+{
     double way = 0;
+    direction_of(camera, at, direction);
     if (footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH) {
         const size_t pixel = (size_t)at[1] * camera->width + (size_t)at[0];
         way = host_camera_distance(camera, s->plate->depth[pixel]);
@@ -149,11 +157,28 @@ static void add_quad(grid *g, const uint32_t corners[4], const double *ways)
     }
 }
 
+/* The same for a place that may lie beside the picture: the ground goes on there as high as at the nearest pixel, so
+ * that cells at the border are whole. Only where the mask of that pixel says ground. */
+static double way_with_border(const shot *s, const host_camera *camera, const double at[2], double direction[3])
+{
+    const double near[2] = {fmin(fmax(at[0], 0.5), camera->width - 0.5), fmin(fmax(at[1], 0.5), camera->height - 0.5)};
+    const size_t pixel = (size_t)near[1] * camera->width + (size_t)near[0];
+    double edge[3];
+    const double way = way_to_ground(s, camera, near, edge);
+    direction_of(camera, at, direction);
+    if (s->plate_ground->share[pixel] < 0.5f)
+        return 0;
+    if (near[0] == at[0] && near[1] == at[1])
+        return way;
+    return direction[1] < -1e-3 && edge[1] < 0 ? way * edge[1] / direction[1] : 0;
+}
+
 /* Adds what a frame shows: its camera, the loaded mask, and the loaded plate's depth. */
 static bool add_frame(const shot *s, const host_camera *camera, grid *g)
 {
     const uint32_t step = camera->width > COLUMNS ? camera->width / COLUMNS : 1;
-    const uint32_t columns = (camera->width - 1) / step + 1, rows = (camera->height - 1) / step + 1;
+    const uint32_t columns = (uint32_t)(BORDER * camera->width / step);
+    const uint32_t rows = (uint32_t)(BORDER * camera->height / step);
     const uint32_t first = g->vertex_count, more = columns * rows;
     host_vertex *vertices = realloc(g->vertices, (first + more) * sizeof *vertices);
     if (vertices)
@@ -167,11 +192,10 @@ static bool add_frame(const shot *s, const host_camera *camera, grid *g)
         return false;
     }
     for (uint32_t i = 0; i < more; i++) {
-        const double at[2] = {(i % columns) * step + 0.5, (double)(i / columns) * step + 0.5};
-        const size_t pixel = (size_t)at[1] * camera->width + (size_t)at[0];
+        const double at[2] = {((i % columns) + 0.5 - 0.5 * columns) * step + 0.5 * camera->width,
+                              ((double)(i / columns) + 0.5 - 0.5 * rows) * step + 0.5 * camera->height};
         double direction[3];
-        const double way = way_to_ground(s, camera, at, direction);
-        ways[first + i] = s->plate_ground->share[pixel] >= 0.5f ? way : 0;
+        const double way = ways[first + i] = way_with_border(s, camera, at, direction);
         vertices[first + i] = (host_vertex){.normal = {0, 1e-12f, 0}};
         for (int c = 0; c < 3; c++)
             vertices[first + i].position[c] = (float)(camera->position_m[c] + way * direction[c]);
@@ -226,24 +250,54 @@ static bool gather_frames(shot *s, grid *g, char *error, size_t error_size)
 
 static const host_material asphalt = {.name = "footage ground, asphalt", .base_color = {1, 1, 1, 1}, .roughness = 0.8f};
 
-static int by_height(const void *a, const void *b)
+/* Height of a triangle's middle, and its area where it is level. */
+static float height_of(const grid *g, const uint32_t *corners, float *level_m2)
 {
-    const float left = *(const float *)a, right = *(const float *)b;
-    return (left > right) - (left < right);
+    const float *a = g->vertices[corners[0]].position, *b = g->vertices[corners[1]].position,
+                *c = g->vertices[corners[2]].position;
+    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const float up = u[2] * w[0] - u[0] * w[2];
+    const float size = hypotf(hypotf(u[1] * w[2] - u[2] * w[1], up), u[0] * w[1] - u[1] * w[0]);
+    *level_m2 = up > 0.9f * size ? 0.5f * up : 0;
+    return (a[1] + b[1] + c[1]) / 3;
 }
 
-/* Height that half of the ground is below, as depth has outliers. */
-static float middle_height(const grid *g)
+/* The height that most of the level ground has: roofs of cars and steps are smaller. */
+static float height_of_ground(const grid *g, float camera_m)
 {
-    float *heights = malloc(g->index_count * sizeof *heights), middle = 0;
-    for (uint32_t i = 0; heights && i < g->index_count; i++)
-        heights[i] = g->vertices[g->indices[i]].position[1];
-    if (heights) {
-        qsort(heights, g->index_count, sizeof *heights, by_height);
-        middle = heights[g->index_count / 2];
+    enum { BINS = 1024 };
+    const float bin_m = 0.1f;
+    static const float half = 0.5f * BINS;
+    float area[BINS] = {0}, moment[BINS] = {0};
+    int best = 0;
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        float level_m2;
+        const float height = height_of(g, g->indices + i, &level_m2);
+        const float at = (height - camera_m) / bin_m + half;
+        if (!(at >= 0 && at < BINS))
+            continue;
+        area[(int)at] += level_m2;
+        moment[(int)at] += level_m2 * height;
     }
-    free(heights);
-    return middle;
+    for (int i = 0; i + 1 < BINS; i++)
+        if (area[i] + area[i + 1] > area[best] + area[best + 1])
+            best = i;
+    const float whole = area[best] + area[best + 1];
+    return whole > 0 ? (moment[best] + moment[best + 1]) / whole : g->vertices[g->indices[0]].position[1];
+}
+
+/* Without a mask, what is a step higher or lower than that is no ground. */
+static void keep_near(grid *g, float height_m)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < g->index_count; i += 3) {
+        float level_m2;
+        if (fabsf(height_of(g, g->indices + i, &level_m2) - height_m) > NEAR_M)
+            continue;
+        memmove(g->indices + kept, g->indices + i, 3 * sizeof *g->indices);
+        kept += 3;
+    }
+    g->index_count = kept;
 }
 
 static void turn_to_unit(grid *g)
@@ -256,14 +310,14 @@ static void turn_to_unit(grid *g)
     }
 }
 
-static bool make_mesh(shot *s, const grid *g, char *error, size_t error_size)
+static bool make_mesh(shot *s, const grid *g, float height_m, char *error, size_t error_size)
 {
     host_mesh *mesh = &s->meshes[s->meshes_loaded];
     if (!host_mesh_create(&s->device, g->vertices, g->vertex_count, g->indices, g->index_count, &asphalt, mesh, error,
                           error_size))
         return false;
-    mesh->apart = true; /* flat ground shades nothing */
-    mesh->primitives[0].low[1] = middle_height(g);
+    mesh->apart = true;                    /* flat ground shades nothing */
+    mesh->primitives[0].low[1] = height_m; /* the mirror's plane is there */
     return true;
 }
 
@@ -296,7 +350,7 @@ static bool upload_mask(shot *s, host_mesh *mesh, char *error, size_t error_size
 }
 
 /* Of a plane, all of it: the mask alone says where. */
-static bool add_look(shot *s, const grid *seen, char *error, size_t error_size)
+static bool add_look(shot *s, const grid *seen, float height_m, char *error, size_t error_size)
 {
     const double *at = s->camera_keys[0].position_m;
     host_vertex corners[4];
@@ -308,7 +362,7 @@ static bool add_look(shot *s, const grid *seen, char *error, size_t error_size)
     const grid plane = {corners, indices, 4, 6};
     plate_ground *g = s->plate_ground;
     g->look = s->meshes_loaded;
-    if (!make_mesh(s, footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE ? &plane : seen, error, error_size))
+    if (!make_mesh(s, footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE ? &plane : seen, height_m, error, error_size))
         return false;
     host_mesh *mesh = &s->meshes[g->look];
     return add_texture(s, mesh, error, error_size) && upload_mask(s, mesh, error, error_size) &&
@@ -326,11 +380,16 @@ bool plate_ground_load_meshes(shot *s, char *error, size_t error_size)
     grid seen = {.vertices = NULL};
     if (!s->plate_ground)
         return true;
+    float height_m = 0;
     bool made = gather_frames(s, &seen, error, error_size);
-    if (made)
+    if (made) {
         turn_to_unit(&seen);
-    made = made && make_mesh(s, &seen, error, error_size) && shot_add_mesh(s, true, error, error_size) &&
-           (!s->renderer || add_look(s, &seen, error, error_size));
+        height_m = height_of_ground(&seen, (float)s->camera_keys[0].position_m[1]);
+    }
+    if (made && footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH && !s->plate_ground->has_masks)
+        keep_near(&seen, height_m);
+    made = made && make_mesh(s, &seen, height_m, error, error_size) && shot_add_mesh(s, true, error, error_size) &&
+           (!s->renderer || add_look(s, &seen, height_m, error, error_size));
     free(seen.vertices);
     free(seen.indices);
     return made;
