@@ -142,7 +142,7 @@ static double moving_ellipse(const shot *s, const virga_streak_gpu *streak, uint
         const double y = pixel / s->picture.width + (i / SIDE % SIDE + 0.5) / SIDE - tail[1];
         const double u = (y * along[0] - x * along[1]) / path;
         const double v = (x * along[0] + y * along[1]) / path - path * (i / SIDE / SIDE + 0.5) / TIMES;
-        inside += hypot(2 * u / width, 2 * v / body) < 1;
+        inside += 4 * (u * u / (width * width) + v * v / (body * body)) < 1;
     }
     return high_half(streak->width_alpha) / fmin(1, body / path) * inside / (TIMES * SIDE * SIDE);
 }

@@ -115,22 +115,15 @@ static void surfels_lie_on_the_surface_of_anisotropic_kernels(void **state)
 static uint32_t count_crossings(void)
 {
     enum { X = 66, Y = 46, Z = 46 };
-    const double step = water_h(&f) / VIRGA_WATER_SIDE;
-    const int low[3] = {-28, -16, 14};
-    static double field[Z][Y][X];
-    uint32_t crossings = 0;
-    for (int i = 0; i < X * Y * Z; i++) {
-        const int x = i % X, y = i / X % Y, z = i / (X * Y);
-        const double at[3] = {step * (low[0] + x), step * (low[1] + y), step * (low[2] + z)};
-        field[z][y][x] = water_kernel_density(&f, kernels, at, NULL) - (double)f.settings.level;
+    static double field[X * Y * Z];
+    const water_grid grid = {
+        .low = {-28, -16, 14}, .sizes = {X, Y, Z}, .step = water_h(&f) / VIRGA_WATER_SIDE, .field = field};
+    for (size_t i = 0; i < X * Y * Z; i++) {
+        double at[3];
+        water_grid_at(&grid, i, at);
+        field[i] = water_kernel_density(&f, kernels, at, NULL);
     }
-    for (int z = 0; z < Z - 1; z++)
-        for (int y = 0; y < Y - 1; y++)
-            for (int x = 0; x < X - 1; x++)
-                crossings += ((field[z][y][x] < 0) != (field[z][y][x + 1] < 0)) +
-                             ((field[z][y][x] < 0) != (field[z][y + 1][x] < 0)) +
-                             ((field[z][y][x] < 0) != (field[z + 1][y][x] < 0));
-    return crossings;
+    return water_count_crossings(&grid, (double)f.settings.level);
 }
 
 static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)

@@ -67,27 +67,31 @@ static void surfels_lie_on_the_surface_with_its_normal(void **state)
     water_fixture_close(&f);
 }
 
-/* Number of edges of the whole grid, also far from the water, that the surface crosses. */
-static uint32_t count_crossings(void)
+/* The density on the whole grid, also far from the water. It is 0 where no particle is within h. */
+static void fill_grid(water_grid *grid)
 {
-    const double step = 2 * 0.02 / VIRGA_WATER_SIDE;
     enum { X = 120, Y = 110, Z = 110 };
-    const int low[3] = {-45, -25, 0};
-    static double field[Z][Y][X];
-    uint32_t crossings = 0;
-    for (int z = 0; z < Z; z++)
-        for (int y = 0; y < Y; y++)
-            for (int x = 0; x < X; x++) {
-                const double at[3] = {step * (low[0] + x), step * (low[1] + y), step * (low[2] + z)};
-                field[z][y][x] = water_reference(&f, at, NULL) - (double)f.settings.level;
-            }
-    for (int z = 0; z < Z - 1; z++)
-        for (int y = 0; y < Y - 1; y++)
-            for (int x = 0; x < X - 1; x++)
-                crossings += ((field[z][y][x] < 0) != (field[z][y][x + 1] < 0)) +
-                             ((field[z][y][x] < 0) != (field[z][y + 1][x] < 0)) +
-                             ((field[z][y][x] < 0) != (field[z + 1][y][x] < 0));
-    return crossings;
+    static double field[X * Y * Z];
+    const double h = water_h(&f);
+    *grid = (water_grid){.low = {-45, -25, 0}, .sizes = {X, Y, Z}, .step = h / VIRGA_WATER_SIDE, .field = field};
+    memset(field, 0, sizeof field);
+    for (uint32_t p = 0; p < f.count; p++) {
+        int first[3], last[3];
+        for (int axis = 0; axis < 3; axis++) {
+            const double at = (double)f.particles[p].position[axis];
+            first[axis] = (int)fmax(floor((at - h) / grid->step) - grid->low[axis], 0);
+            last[axis] = (int)fmin(ceil((at + h) / grid->step) - grid->low[axis], grid->sizes[axis] - 1);
+        }
+        for (int z = first[2]; z <= last[2]; z++)
+            for (int y = first[1]; y <= last[1]; y++)
+                for (int x = first[0]; x <= last[0]; x++) {
+                    const size_t i = (size_t)((z * Y + y) * X + x);
+                    double at[3];
+                    water_grid_at(grid, i, at);
+                    if (field[i] <= 0)
+                        field[i] = water_reference(&f, at, NULL);
+                }
+    }
 }
 
 static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)
@@ -95,11 +99,13 @@ static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)
     (void)state;
     water_fixture_open(&f);
     put_water();
+    water_grid grid;
+    fill_grid(&grid);
     const float levels[3] = {0.5f, 0.2f, 0.8f};
     for (int i = 0; i < 3; i++) {
         f.settings.level = levels[i];
         water_fixture_step(&f);
-        const uint32_t expected = count_crossings();
+        const uint32_t expected = water_count_crossings(&grid, (double)f.settings.level);
         if (f.stats.surfels != expected)
             fail_msg("level %g: %u surfels (%u, %u dropped), expected %u", (double)levels[i], f.stats.surfels,
                      f.stats.surfels_dropped, f.stats.blocks_dropped, expected);
@@ -117,7 +123,9 @@ static void water_that_is_compressed_has_its_surface(void **state)
     f.settings.spacing_m = 0.02f;
     water_fixture_box(&f, low, counts, 0.0182, 0);
     water_fixture_step(&f);
-    assert_int_equal(f.stats.surfels, count_crossings());
+    water_grid grid;
+    fill_grid(&grid);
+    assert_int_equal(f.stats.surfels, water_count_crossings(&grid, (double)f.settings.level));
     water_fixture_close(&f);
 }
 

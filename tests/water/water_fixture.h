@@ -178,6 +178,12 @@ static inline void water_fixture_shells(water_fixture *f, const double center[3]
 
 /* ---- reference in double precision */
 
+/* Radius of the kernel in m. */
+static inline double water_h(const water_fixture *f)
+{
+    return (double)f->settings.kernel_spacings * (double)f->settings.spacing_m;
+}
+
 /* Density at a point (equation 1), and its gradient. */
 static inline double water_reference(const water_fixture *f, const double at[3], double gradient[3])
 {
@@ -200,6 +206,37 @@ static inline double water_reference(const water_fixture *f, const double at[3],
             gradient[axis] -= (double)f->particles[i].share * factor * 6 * pow(h * h - r2, 2) * apart[axis];
     }
     return sum;
+}
+
+/* A grid of points, and a field on it: sizes[0] along x, then y, then z; its first point is `low` steps from 0. */
+typedef struct water_grid {
+    int low[3], sizes[3];
+    double step;   /* m */
+    double *field; /* sizes[0] * sizes[1] * sizes[2] */
+} water_grid;
+
+static inline void water_grid_at(const water_grid *grid, size_t i, double at[3])
+{
+    size_t rest = i;
+    for (int axis = 0; axis < 3; axis++) {
+        at[axis] = grid->step * (double)(grid->low[axis] + (int)(rest % (size_t)grid->sizes[axis]));
+        rest /= (size_t)grid->sizes[axis];
+    }
+}
+
+/* Number of edges of the grid on which the field crosses `level`. */
+static inline uint32_t water_count_crossings(const water_grid *grid, double level)
+{
+    const size_t row = (size_t)grid->sizes[0], plane = row * (size_t)grid->sizes[1];
+    uint32_t crossings = 0;
+    for (int z = 0; z < grid->sizes[2] - 1; z++)
+        for (int y = 0; y < grid->sizes[1] - 1; y++)
+            for (int x = 0; x < grid->sizes[0] - 1; x++) {
+                const double *at = grid->field + (size_t)z * plane + (size_t)y * row + (size_t)x;
+                const bool out = at[0] < level;
+                crossings += (out != (at[1] < level)) + (out != (at[row] < level)) + (out != (at[plane] < level));
+            }
+    return crossings;
 }
 
 /* Mean radius of the surface around a point within it. */

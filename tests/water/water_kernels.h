@@ -12,11 +12,6 @@ typedef struct water_kernel {
     double weight, mean[3], covariance[3][3], axes[3];
 } water_kernel;
 
-static inline double water_h(const water_fixture *f)
-{
-    return (double)f->settings.kernel_spacings * (double)f->settings.spacing_m;
-}
-
 /* The offset to another particle, and its weight 1 - (r / h)^3 (Yu and Turk 2013, equation 11). */
 static inline double water_weight(const water_fixture *f, uint32_t i, uint32_t j, double apart[3])
 {
