@@ -232,15 +232,37 @@ static bool fill_nodes(const virga_glass *glass, const virga_glass_shape *shape,
 
 /* ---- cells */
 
+/* The hashed values at the corners of one cell of value noise. Cells of a pane ask for the same one many times. */
+typedef struct noise_corners {
+    uint32_t seed;
+    int32_t x, y;
+    double values[4];
+} noise_corners;
+
+static void find_corners(int32_t x, int32_t y, noise_corners *corners)
+{
+    corners->x = x;
+    corners->y = y;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t hash = virga_hash3(corners->seed, (uint32_t)(x + (i & 1)), (uint32_t)(y + (i >> 1)));
+        corners->values[i] = (double)virga_unit(hash) + (double)virga_unit(virga_hash1(hash)) - 1;
+    }
+}
+
+static noise_corners first_corners(uint32_t seed)
+{
+    noise_corners corners = {.seed = seed};
+    find_corners(0, 0, &corners);
+    return corners;
+}
+
 /* Value noise: hashed values on a grid, interpolated by a cubic whose slope is 0 at both ends (smoothstep). */
-static double noise(uint32_t seed, double x, double y)
+static double noise(noise_corners *corners, double x, double y)
 {
     const int32_t ix = (int32_t)floor(x), iy = (int32_t)floor(y);
-    double corner[4];
-    for (int i = 0; i < 4; i++) {
-        const uint32_t hash = virga_hash3(seed, (uint32_t)(ix + (i & 1)), (uint32_t)(iy + (i >> 1)));
-        corner[i] = (double)virga_unit(hash) + (double)virga_unit(virga_hash1(hash)) - 1;
-    }
+    if (ix != corners->x || iy != corners->y)
+        find_corners(ix, iy, corners);
+    const double *corner = corners->values;
     double fx = x - ix, fy = y - iy;
     fx *= fx * (3 - 2 * fx);
     fy *= fy * (3 - 2 * fy);
@@ -250,11 +272,10 @@ static double noise(uint32_t seed, double x, double y)
 /* Logarithm of a cell's affinity, in standard deviations. It is a sum of two octaves of noise. The first has the width
  * from the settings. The second has a third of this width and half the amplitude. The sum of two uniform random numbers
  * has a variance of 1/6; interpolation reduces it to about half. */
-static double uneven(const virga_glass *glass, double u, double v)
+static double uneven(noise_corners octaves[2], double width, double u, double v)
 {
-    const double width = (double)glass->def.affinity_size_m;
-    const double sum = noise(glass->def.seed ^ 0x51ed27u, u / width, v / width) +
-                       0.5 * noise(glass->def.seed ^ 0x77b3e1u, 3 * u / width, 3 * v / width);
+    const double sum =
+        noise(&octaves[0], u / width, v / width) + 0.5 * noise(&octaves[1], 3 * u / width, 3 * v / width);
     return sum / 0.27;
 }
 
@@ -289,7 +310,7 @@ static double bump_deviation(const virga_glass_shape *shape, double *mean)
 static uint32_t byte_of(double value, double scale)
 {
     const double whole = floor(128 + value * scale + 0.5);
-    return (uint32_t)fmin(fmax(whole, 0), 255);
+    return whole > 0 ? (uint32_t)(whole < 255 ? whole : 255) : 0;
 }
 
 static bool has_glass(const virga_glass_shape *shape, double s, double t)
@@ -304,10 +325,12 @@ static void fill_cells(const virga_glass *glass, const virga_glass_shape *shape,
 {
     double mean = 0;
     const double cell = (double)glass->def.cell_m, deviation = shape->bumps_m ? bump_deviation(shape, &mean) : 1;
+    const double width = (double)glass->def.affinity_size_m;
+    noise_corners octaves[2] = {first_corners(glass->def.seed ^ 0x51ed27u), first_corners(glass->def.seed ^ 0x77b3e1u)};
     for (uint32_t row = 0; row < glass->rows; row++)
         for (uint32_t column = 0; column < glass->columns; column++) {
             const double u = (column + 0.5) * cell, v = (row + 0.5) * cell;
-            double affinity = uneven(glass, u, v), slope[2] = {0, 0};
+            double affinity = uneven(octaves, width, u, v), slope[2] = {0, 0};
             if (shape->bumps_m) {
                 /* Low areas attract drops. Chen and Zhang name affinity from the bump map as future work. */
                 affinity -= (double)shape->bump_affinity * (bump(shape, u, v) - mean) / deviation;
