@@ -63,31 +63,42 @@ double ring_reach(int layer, double t)
     return starts_m[layer / VIRGA_RING_DEPTHS] + fronts_m_s[layer / VIRGA_RING_DEPTHS] * t;
 }
 
-/* Of each wave of a width of craters, at each depth: initial amplitude, frequency and damping. */
+/* Of each wave of a width of craters, at each depth: its amplitude S(k) exp((i w - gamma) t) k^2 dk at the time that
+ * was reached, and the factor by which it turns and shrinks from one time of the table to the next. */
 typedef struct waves {
     double step; /* rad/m, between the numbers of two waves */
-    double start[NUMBERS], omega[NUMBERS][VIRGA_RING_DEPTHS], gamma[NUMBERS][VIRGA_RING_DEPTHS];
+    double amplitude[NUMBERS][VIRGA_RING_DEPTHS][2], turn[NUMBERS][VIRGA_RING_DEPTHS][2]; /* real, imaginary */
 } waves;
 
-static void describe_waves(double a, double blur_m, waves *w)
+static void start_waves(double a, double blur_m, double dt, waves *w)
 {
     w->step = KA_MAX / a / NUMBERS;
     for (int i = 0; i < NUMBERS; i++) {
         const double k = (i + 0.5) * w->step;
-        w->start[i] = -spectrum(a, k) * exp(-k * k * blur_m * blur_m / 2) * k * k * w->step;
+        const double start = -spectrum(a, k) * exp(-k * k * blur_m * blur_m / 2) * k * k * w->step;
         for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
-            w->omega[i][layer] = ring_omega(k, ring_depth(layer));
-            w->gamma[i][layer] = ring_gamma(k, ring_depth(layer));
+            const double phase = ring_omega(k, ring_depth(layer)) * dt;
+            const double held = exp(-ring_gamma(k, ring_depth(layer)) * dt);
+            w->amplitude[i][layer][0] = start;
+            w->amplitude[i][layer][1] = 0;
+            w->turn[i][layer][0] = held * cos(phase);
+            w->turn[i][layer][1] = held * sin(phase);
         }
     }
 }
 
-/* The weight of each wave at time t, for each depth. All depths use the same waves, so J1 is computed once. */
-static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DEPTHS])
+/* The weight of each wave, for each depth; then to the next time. All depths use the same waves, so J1 is computed
+ * once. */
+static void weigh(waves *w, float weights[NUMBERS][VIRGA_RING_DEPTHS])
 {
     for (int i = 0; i < NUMBERS; i++)
-        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
-            weights[i][layer] = (float)(w->start[i] * cos(w->omega[i][layer] * t) * exp(-w->gamma[i][layer] * t));
+        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
+            double *z = w->amplitude[i][layer];
+            const double *turn = w->turn[i][layer], real = z[0];
+            weights[i][layer] = (float)real;
+            z[0] = real * turn[0] - z[1] * turn[1];
+            z[1] = real * turn[1] + z[1] * turn[0];
+        }
 }
 
 /* J1 of all waves at radius r, then their sums: apart, so that the second loop is one of vectors. */
@@ -113,12 +124,12 @@ static void fill_width(int first, double blur_m, const float *bessel, float *slo
 {
     float weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
     waves w;
-    describe_waves(ring_width(first), blur_m, &w);
+    const double dt = ring_life(first) / (VIRGA_RING_TIMES - 1);
+    start_waves(ring_width(first), blur_m, dt, &w);
     for (int j = 0; j < VIRGA_RING_TIMES; j++) {
-        const double t = j * ring_life(first) / (VIRGA_RING_TIMES - 1);
-        weigh(&w, t, weights);
+        weigh(&w, weights);
         for (int r = 0; r < VIRGA_RING_RADII; r++) {
-            sum_waves(weights, bessel, w.step, r * ring_reach(first, t) / (VIRGA_RING_RADII - 1), sums);
+            sum_waves(weights, bessel, w.step, r * ring_reach(first, j * dt) / (VIRGA_RING_RADII - 1), sums);
             for (int depth = 0; depth < VIRGA_RING_DEPTHS; depth++)
                 slope[((first + depth) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[depth];
         }
