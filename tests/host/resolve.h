@@ -194,7 +194,7 @@ static inline void resolve_save(const resolve_scene *scene, const char *kind, co
             for (uint32_t x = 0; x < width * zoom; x++) {
                 const float light = lights[part][y / zoom * width + x / zoom];
                 const float rgba[4] = {light, light, light, 1};
-                png_from_linear(rgba, 1, 0.5f,
+                png_from_linear(rgba, 1, 0.5f, PNG_CURVE_SHOULDER,
                                 &rgb[3 * ((size_t)y * total_width + (uint32_t)part * (width * zoom + gap) + x)]);
             }
     char path[1024], error[256];

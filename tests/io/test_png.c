@@ -284,25 +284,44 @@ static void what_has_no_numbers_is_refused(void **state)
     assert_no_numbers("No such file or directory");
 }
 
-static void the_tone_curve_never_falls(void **state)
+static void no_tone_curve_falls(void **state)
 {
     (void)state;
-    float before = -1.0f;
-    for (int i = 0; i <= 10000; i++) {
-        float tone = png_tone((float)i * 0.001f);
-        assert_true(tone >= before && tone <= 1.0f);
-        before = tone;
+    for (png_curve curve = PNG_CURVE_SHOULDER; curve <= PNG_CURVE_NONE; curve++) {
+        float before = -1.0f;
+        for (int i = 0; i <= 10000; i++) {
+            float tone = png_tone(curve, (float)i * 0.001f);
+            assert_true(tone >= before && tone <= 1.0f);
+            before = tone;
+        }
+        assert_true(png_tone(curve, 0.0f) == 0.0f && png_tone(curve, -1.0f) == 0.0f && png_tone(curve, NAN) == 0.0f);
+        assert_true(png_tone(curve, INFINITY) == 1.0f);
     }
-    assert_true(png_tone(8.0f) == 1.0f);
+    assert_true(png_tone(PNG_CURVE_SHOULDER, 8.0f) == 1.0f);
+    assert_true(png_tone(PNG_CURVE_NONE, 0.7f) == 0.7f);
 }
 
-static void the_tone_curve_keeps_mid_tones(void **state)
+static void the_shoulder_keeps_mid_tones(void **state)
 {
     (void)state;
-    assert_true(png_tone(0.18f) == 0.18f);
+    const png_curve curve = PNG_CURVE_SHOULDER;
+    assert_true(png_tone(curve, 0.18f) == 0.18f);
     /* no kink where the shoulder begins: the slopes on both sides agree within 1 % */
-    float below = (png_tone(0.6f) - png_tone(0.599f)) / 0.001f, above = (png_tone(0.601f) - png_tone(0.6f)) / 0.001f;
+    float below = (png_tone(curve, 0.6f) - png_tone(curve, 0.599f)) / 0.001f;
+    float above = (png_tone(curve, 0.601f) - png_tone(curve, 0.6f)) / 0.001f;
     assert_true(fabsf(above / below - 1.0f) < 0.01f);
+}
+
+/* The rational function in double precision, with its exposure. */
+static void the_filmic_curve_is_the_fit_of_its_paper(void **state)
+{
+    (void)state;
+    for (int i = 1; i < 200; i++) {
+        const double light = 0.02 * i, x = 0.6 * light;
+        const double expected = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+        assert_true(fabs((double)png_tone(PNG_CURVE_FILMIC, (float)light) - fmin(expected, 1)) < 1e-6);
+    }
+    assert_true(fabsf(png_tone(PNG_CURVE_FILMIC, 0.18f) - 0.140f) < 0.0005f);
 }
 
 static void light_becomes_srgb_bytes(void **state)
@@ -310,7 +329,7 @@ static void light_becomes_srgb_bytes(void **state)
     (void)state;
     const float light[4 * 4] = {0.0f, 0.18f, 0.5f, 1.0f, 8.0f, 1000.0f, INFINITY, 0.0f, -1.0f, NAN, 0.002f, 1.0f};
     uint8_t rgb[9];
-    png_from_linear(light, 3, 0.0f, rgb);
+    png_from_linear(light, 3, 0.0f, PNG_CURVE_SHOULDER, rgb);
     /* sRGB of 0.18 is 117.7, of 0.5 is 187.5, of 0.002 is 6.6 (IEC 61966-2-1) */
     const uint8_t expected[9] = {0, 118, 188, 255, 255, 255, 0, 0, 7};
     for (int i = 0; i < 9; i++)
@@ -322,8 +341,8 @@ static void exposure_is_in_stops(void **state)
     (void)state;
     const float dim[4] = {0.05f, 0.1f, 0.125f, 1.0f}, bright[4] = {0.2f, 0.4f, 0.5f, 1.0f};
     uint8_t one[3], other[3];
-    png_from_linear(dim, 1, 2.0f, one);
-    png_from_linear(bright, 1, 0.0f, other);
+    png_from_linear(dim, 1, 2.0f, PNG_CURVE_SHOULDER, one);
+    png_from_linear(bright, 1, 0.0f, PNG_CURVE_SHOULDER, other);
     assert_memory_equal(one, other, 3);
 }
 
@@ -344,8 +363,9 @@ int main(void)
         TEST_IN_FOLDER(entries_of_a_palette_are_numbers),
         TEST_IN_FOLDER(first_channels_are_numbers),
         TEST_IN_FOLDER(what_has_no_numbers_is_refused),
-        TEST_IN_FOLDER(the_tone_curve_never_falls),
-        TEST_IN_FOLDER(the_tone_curve_keeps_mid_tones),
+        TEST_IN_FOLDER(no_tone_curve_falls),
+        TEST_IN_FOLDER(the_shoulder_keeps_mid_tones),
+        TEST_IN_FOLDER(the_filmic_curve_is_the_fit_of_its_paper),
         TEST_IN_FOLDER(light_becomes_srgb_bytes),
         TEST_IN_FOLDER(exposure_is_in_stops),
     };

@@ -233,7 +233,7 @@ static inline void shot_save(const shot *s, const char *name)
     REQUIRE(over && rgb);
     for (size_t i = 0; i < 4 * count; i++)
         over[i] = s->pixels[i] + (1 - s->pixels[i / 4 * 4 + 3]) * s->plate[i];
-    png_from_linear(over, count, 0, rgb);
+    png_from_linear(over, count, 0, PNG_CURVE_SHOULDER, rgb);
     snprintf(path, sizeof path, "%s/%s.png", folder, name);
     if (!png_write(path, s->width, s->height, 3, rgb, error, sizeof error))
         fail_msg("%s", error);

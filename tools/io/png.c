@@ -170,11 +170,9 @@ bool png_read_numbers(const char *path, uint32_t *width, uint32_t *height, uint8
 
 /* With u = (x - a) / (1 - a), the shoulder is y = a + (1 - a) u (1 + u / w^2) / (1 + u) (the extended curve of Reinhard
  * et al. 2002): slope 1 at u = 0, y = 1 at u = w. Here a = 0.6 and x = 8 gives 1, so w = 7.4 / 0.4 = 18.5. */
-float png_tone(float linear)
+static float shoulder(float linear)
 {
     const float knee = 0.6f, room = 1.0f - 0.6f, white = (8.0f - 0.6f) / room;
-    if (!(linear > 0.0f))
-        return 0.0f;
     if (linear <= knee)
         return linear;
     if (linear >= 8.0f)
@@ -183,16 +181,32 @@ float png_tone(float linear)
     return fminf(1.0f, knee + room * u * (1.0f + u / (white * white)) / (1.0f + u));
 }
 
+/* Krzysztof Narkowicz, "ACES Filmic Tone Mapping Curve", 2015. */
+static float filmic(float linear)
+{
+    const float x = fminf(0.6f * linear, 1e6f); /* squares stay finite */
+    return fminf(1.0f, x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f));
+}
+
+float png_tone(png_curve curve, float linear)
+{
+    if (!(linear > 0.0f))
+        return 0.0f;
+    if (curve == PNG_CURVE_NONE)
+        return fminf(1.0f, linear);
+    return curve == PNG_CURVE_FILMIC ? filmic(linear) : shoulder(linear);
+}
+
 static uint8_t srgb_byte(float linear)
 {
     float coded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
     return (uint8_t)lrintf(255.0f * fminf(1.0f, fmaxf(0.0f, coded)));
 }
 
-void png_from_linear(const float *rgba, size_t pixels, float exposure_ev, uint8_t *rgb)
+void png_from_linear(const float *rgba, size_t pixels, float exposure_ev, png_curve curve, uint8_t *rgb)
 {
     float gain = exp2f(exposure_ev);
     for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
-            rgb[i * 3 + c] = srgb_byte(png_tone(gain * rgba[i * 4 + c]));
+            rgb[i * 3 + c] = srgb_byte(png_tone(curve, gain * rgba[i * 4 + c]));
 }

@@ -24,13 +24,23 @@ bool png_read_memory(const void *data, size_t size, const char *what, uint32_t *
 bool png_read_numbers(const char *path, uint32_t *width, uint32_t *height, uint8_t **numbers, char *error,
                       size_t error_size);
 
-/* Converts linear light to display values: exposure in stops, the tone curve of png_tone, then sRGB. Ignores alpha. NaN
- * and negative values become black. `rgb` has 3 bytes per pixel. */
-void png_from_linear(const float *rgba, size_t pixels, float exposure_ev, uint8_t *rgb);
+/* How linear light [0; infinity) becomes linear display light [0; 1]. All are monotonic. */
+typedef enum png_curve {
+    /* Identity up to 0.6, then a rational shoulder that leaves it with the same slope and meets 1 at 8 (three stops
+     * over white), so mid tones look as computed and lamps keep their shape. */
+    PNG_CURVE_SHOULDER,
+    /* Toe and shoulder of film: dark parts darker and with more contrast, bright colors towards white. The fit of
+     * Narkowicz (2015) to the ACES reference transforms, with its exposure of 0.6. 0.18 becomes 0.140. */
+    PNG_CURVE_FILMIC,
+    PNG_CURVE_NONE, /* identity, clipped at 1 */
+} png_curve;
 
-/* The tone curve alone: linear light in, linear display light [0; 1] out. Identity up to 0.6, then a rational shoulder
- * that leaves it with the same slope and meets 1 at 8 (three stops over white), so mid tones look as computed and
- * lamps keep their shape. Per channel, so very bright colours fade to white as they do on film. */
-float png_tone(float linear);
+/* Converts linear light to display values: exposure in stops, a tone curve, then sRGB. Ignores alpha. NaN and
+ * negative values become black. `rgb` has 3 bytes per pixel. */
+void png_from_linear(const float *rgba, size_t pixels, float exposure_ev, png_curve curve, uint8_t *rgb);
+
+/* A tone curve alone: linear light in, linear display light [0; 1] out. For each channel by itself, so very bright
+ * colors fade to white as they do on film. */
+float png_tone(png_curve curve, float linear);
 
 #endif

@@ -1,4 +1,5 @@
 /* scene_core.c - the keys of scene files that belong to no effect: models, sky, lights, camera, frames. */
+#include "png.h"
 #include "scene_camera.h"
 #include "scene_footage.h"
 #include "scene_rows.h"
@@ -58,9 +59,14 @@ static const scene_row frames_rows[] = {
 };
 static const scene_group frames_group = SCENE_GROUP(scene_frames, frames_rows);
 
+static const scene_keyword curves[] = {
+    {"shoulder", PNG_CURVE_SHOULDER}, {"filmic", PNG_CURVE_FILMIC}, {"none", PNG_CURVE_NONE}, {NULL, 0}};
 static const scene_row preview_rows[] = {
     NUMBER(scene_preview, exposure_ev, -30, 30, "0", LIVE,
            "brightens what is shown, in stops; layers stay as they are"),
+    CHOICE(scene_preview, curve, curves, "shoulder", LIVE,
+           "how light becomes what is shown; shoulder: as computed up to 0.6, lamps keep their shape; filmic: contrast "
+           "and highlights of film; none: cut at 1. EXR layers stay linear"),
 };
 static const scene_group preview_group = SCENE_GROUP(scene_preview, preview_rows);
 

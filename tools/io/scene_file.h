@@ -122,6 +122,7 @@ typedef struct scene_frames {
 
 typedef struct scene_preview {
     double exposure_ev;
+    uint32_t curve; /* png_curve */
 } scene_preview;
 
 /* Where the light comes from that drops before a plate refract. */

@@ -21,9 +21,15 @@ layout(set = 0, binding = VIEW_AT_DEPTH) uniform sampler2D depth_map;
 
 const vec3 OUTSIDE = vec3(0.055, 0.06, 0.07); // around the picture
 
-// As png_tone has it: identity up to 0.6, then a rational shoulder that meets 1 at 8.
+// The curves of png_tone, by png_curve.
 float tone(float x)
 {
+    if (view.mode.w == 1u) {
+        const float film = 0.6 * clamp(x, 0.0, 1e6);
+        return min(1.0, film * (2.51 * film + 0.03) / (film * (2.43 * film + 0.59) + 0.14));
+    }
+    if (view.mode.w == 2u)
+        return clamp(x, 0.0, 1.0);
     const float knee = 0.6, room = 1.0 - knee, white = (8.0 - knee) / room;
     const float u = (x - knee) / room;
     return x <= knee ? max(x, 0.0) : min(1.0, knee + room * u * (1.0 + u / (white * white)) / (1.0 + u));

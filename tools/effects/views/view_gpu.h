@@ -35,7 +35,7 @@ typedef int32_t view_ivec4[4];
 struct view_gpu {
     VIEW_VEC4 area;       /* of the picture in the window, pixels: low corner, size */
     VIEW_VEC4 picture;    /* its own size, exposure as a factor, pixels a frame that show in full */
-    VIEW_UVEC4 mode;      /* of the shader; item of the view; colors over the plate */
+    VIEW_UVEC4 mode;      /* of the shader; item of the view; colors over the plate; png_curve */
     VIEW_VEC4 projection; /* P00, P11, P22, P32 */
     VIEW_VEC4 jitter;     /* P20, P21 */
     VIEW_VEC4 right;      /* axes of the camera in the world */

@@ -151,7 +151,7 @@ bool frame_save_preview(const shot *s, const host_drawn *picture, const char *pa
         host_fail(error, error_size, "no memory for a preview of %u x %u", picture->width, picture->height);
     if (written) {
         frame_compose(s, picture, beauty);
-        png_from_linear(beauty, pixels, (float)s->scene->preview.exposure_ev, rgb);
+        png_from_linear(beauty, pixels, (float)s->scene->preview.exposure_ev, s->scene->preview.curve, rgb);
         written = png_write(path, picture->width, picture->height, 3, rgb, error, error_size);
     }
     free(beauty);

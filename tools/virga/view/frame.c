@@ -187,7 +187,7 @@ static bool between_frames(viewer *v, const float area[4])
 
 static bool draw(viewer *v, double wall_s)
 {
-    view_shown shown = {.exposure_ev = (float)v->scene->preview.exposure_ev};
+    view_shown shown = {.exposure_ev = (float)v->scene->preview.exposure_ev, .curve = v->scene->preview.curve};
     VkCommandBuffer cmd;
     view_panel_build(v);
     const double dt_s = time_of_frame(v, wall_s);

@@ -78,6 +78,7 @@ void part_weather(viewer *v)
         }
     }
     scrub(v, "preview.exposure_ev");
+    scrub(v, "preview.curve");
 }
 
 static void legend(const viewer *v)

@@ -169,6 +169,7 @@ static void fill(const shot *s, const host_camera *camera, const view_shown *sho
     out->picture[3] = 20; /* pixels per frame at full brightness */
     out->mode[0] = mode->view ? mode->view->mode : mode->shader;
     out->mode[1] = mode->layer ? layer_of(s, mode->layer) : shown->item;
+    out->mode[3] = shown->curve;
     fill_camera(camera, out);
     fill_layers(s, out);
 }

@@ -25,6 +25,7 @@ typedef struct view_shown {
     uint32_t mode, item;
     float area[4]; /* rectangle in the window, in pixels: low corner, size */
     float exposure_ev;
+    uint32_t curve; /* png_curve */
 } view_shown;
 
 /* Barrier against the previous frame, at the start of a command buffer: this frame may overwrite what that one sampled.
