@@ -36,6 +36,10 @@ with tempfile.TemporaryDirectory() as work:
             for poses in re.findall(r"file: (\S+\.txt)", block):
                 with open(f"{work}/scenes/{poses}", "w") as file:
                     file.write("1 0 0 0 0 1 0 0 0 0 1 0\n")
+            # And its calibration, as KITTI has it.
+            for calibration in re.findall(r"calibration: {file: (\S+\.txt)", block):
+                with open(f"{work}/scenes/{calibration}", "w") as file:
+                    file.write("S_02: 9 9\nS_rect_02: 9 9\nP_rect_02: 9 0 4 0 0 9 4 0 0 0 1 0\n")
             with open(scene, "w") as file:
                 if not block.startswith("virga:"):
                     file.write(VERSION + ("" if block.startswith("camera:") else CAMERA))

@@ -60,6 +60,15 @@ done
 refuses 'camera.calibration.size_px: expected the aspect of the picture to be drawn (64 x 64), got 128 x 96' \
     render "$work/rain.yaml" -o "$work/refused" --device "$device" --size 64x64
 
+# ---- the same calibration of a file
+scene "$keys" '{file: floor.obj}'
+echo '3 PINHOLE 128 96 96 96 28 36' >"$work/cameras.txt"
+"$virga" check "$work/rain.yaml" --set camera.calibration.file=cameras.txt >"$work/log" 2>&1 &&
+    grep -qF "focal length 96 x 96 pixels, 53.1 degrees high, of $work/cameras.txt" "$work/log" ||
+    { cat "$work/log"; fail 'no calibration of a file'; }
+refuses 'cameras.txt: expected camera to be one of 3, got 2' \
+    check "$work/rain.yaml" --set 'camera.calibration={file: cameras.txt, camera: 2}'
+
 # ---- poses: frame 3 is the third, and 2 m ahead of the first
 printf '%s\n' '1 0 0 5 0 1 0 0 0 0 1 7' '1 0 0 5 0 1 0 0 0 0 1 8' '1 0 0 5 0 1 0 0 0 0 1 9' >"$work/poses.txt"
 scene 'poses: {file: poses.txt}, height_m: 1.25'

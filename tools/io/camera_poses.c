@@ -2,8 +2,8 @@
 #include "camera_poses.h"
 
 #include "file.h"
+#include "text_lines.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,17 +14,7 @@
 #define FARTHEST_M 1e6
 #define SHORTEST_S 1e-6 /* between two poses */
 
-/* ---- lines ---------------------------------------------------------------------------------------------------- */
-
-typedef struct reader {
-    const char *path;
-    FILE *file;
-    uint32_t number; /* of the line */
-    char line[4096];
-    bool is_long; /* the line is cut */
-    char *error;
-    size_t error_size;
-} reader;
+/* ---- poses ---------------------------------------------------------------------------------------------------- */
 
 /* A pose as the file has it: place and axes of the camera in the file's world, right, down, ahead. */
 typedef struct raw_pose {
@@ -38,95 +28,10 @@ typedef struct raw_poses {
     uint32_t count, capacity;
 } raw_poses;
 
-static bool open_reader(reader *r, const char *path, char *error, size_t error_size)
-{
-    *r = (reader){.path = path, .error = error, .error_size = error_size, .file = fopen(path, "r")};
-    return r->file || file_error(error, error_size, "cannot read", path, errno);
-}
-
-/* False behind the last line. What does not fit is left out, and bytes that do not print become question marks. */
-static bool next_line(reader *r)
-{
-    size_t length = 0;
-    int c;
-    r->is_long = false;
-    while ((c = getc_unlocked(r->file)) != EOF && c != '\n') {
-        const bool blank = c == '\t' || c == '\r';
-        if (length + 1 < sizeof r->line)
-            r->line[length++] = blank ? ' ' : c < ' ' || c > '~' ? '?' : (char)c;
-        else
-            r->is_long = true;
-    }
-    while (length && r->line[length - 1] == ' ')
-        length--;
-    r->line[length] = 0;
-    if (c == EOF && !length)
-        return false;
-    r->number++;
-    return true;
-}
-
-/* The same without comments and empty lines. */
-static bool next_full_line(reader *r)
-{
-    do {
-        if (!next_line(r))
-            return false;
-    } while (!r->line[strspn(r->line, " ")] || r->line[strspn(r->line, " ")] == '#');
-    return true;
-}
-
-/* Closes the file, and reports if it could not be read to its end. */
-static bool close_reader(reader *r, bool good)
-{
-    const int failure = ferror(r->file) ? EIO : 0;
-    fclose(r->file);
-    return good && (!failure || file_error(r->error, r->error_size, "cannot read", r->path, failure));
-}
-
-static bool wrong(const reader *r, const char *expected, const char *got)
-{
-    return file_fail(r->error, r->error_size, "%s:%u: expected %s, got %.60s", r->path, r->number, expected, got);
-}
-
-static bool wrong_number(const reader *r, const char *expected, const char *format, double got)
-{
-    char text[64];
-    snprintf(text, sizeof text, format, got);
-    return wrong(r, expected, text);
-}
-
-/* The first numbers of a line. *rest is what follows them. */
-static bool read_numbers(const reader *r, uint32_t count, const char *expected, double *numbers, const char **rest)
-{
-    const char *at = r->line;
-    char word[48];
-    for (uint32_t i = 0; i < count; i++) {
-        char *end;
-        at += strspn(at, " ");
-        numbers[i] = strtod(at, &end);
-        if (!*at)
-            return wrong_number(r, expected, "%.0f numbers", i);
-        if (end == at || (*end && *end != ' ') || !isfinite(numbers[i])) {
-            snprintf(word, sizeof word, "'%.*s'", (int)strcspn(at, " ") < 40 ? (int)strcspn(at, " ") : 40, at);
-            return wrong(r, expected, word);
-        }
-        at = end;
-    }
-    *rest = at + strspn(at, " ");
-    return true;
-}
-
-static bool read_all_numbers(const reader *r, uint32_t count, const char *expected, double *numbers)
-{
-    const char *rest;
-    return read_numbers(r, count, expected, numbers, &rest) && (!*rest || wrong(r, expected, "more"));
-}
-
-static raw_pose *add_pose(const reader *r, raw_poses *poses)
+static raw_pose *add_pose(const text_lines *r, raw_poses *poses)
 {
     if (poses->count == CAMERA_POSES_MAX) {
-        wrong_number(r, "the end of the file", "more than %.0f poses", CAMERA_POSES_MAX);
+        text_lines_wrong_number(r, "the end of the file", "more than %.0f poses", CAMERA_POSES_MAX);
         return NULL;
     }
     if (poses->count == poses->capacity) {
@@ -184,14 +89,14 @@ static bool straighten(double axes[3][3])
 }
 
 /* The columns of the matrix of a quaternion x y z w. */
-static bool turn_by(const reader *r, const double given[4], double columns[3][3])
+static bool turn_by(const text_lines *r, const double given[4], double columns[3][3])
 {
     double q[4], length = 0;
     for (int i = 0; i < 4; i++)
         length += given[i] * given[i];
     length = sqrt(length);
     if (!(fabs(length - 1) < TOLERANCE))
-        return wrong_number(r, "a quaternion of length 1", "one of length %.3g", length);
+        return text_lines_wrong_number(r, "a quaternion of length 1", "one of length %.3g", length);
     for (int i = 0; i < 4; i++)
         q[i] = given[i] / length;
     for (int c = 0; c < 3; c++) {
@@ -205,12 +110,12 @@ static bool turn_by(const reader *r, const double given[4], double columns[3][3]
 
 /* ---- formats -------------------------------------------------------------------------------------------------- */
 
-static bool read_kitti(reader *r, raw_poses *poses, double rate_hz)
+static bool read_kitti(text_lines *r, raw_poses *poses, double rate_hz)
 {
-    while (next_full_line(r)) {
+    while (text_lines_next_full(r)) {
         double n[12];
         raw_pose *pose = add_pose(r, poses);
-        if (!pose || !read_all_numbers(r, 12, "12 numbers of a pose (KITTI)", n))
+        if (!pose || !text_lines_all_numbers(r, r->line, 12, "12 numbers of a pose (KITTI)", n))
             return false;
         for (int row = 0; row < 3; row++) {
             pose->position[row] = n[row * 4 + 3];
@@ -218,40 +123,40 @@ static bool read_kitti(reader *r, raw_poses *poses, double rate_hz)
                 pose->axes[axis][row] = n[row * 4 + axis];
         }
         if (!straighten(pose->axes))
-            return wrong(r, "a rotation in the first 3 columns", "another matrix");
+            return text_lines_wrong(r, "a rotation in the first 3 columns", "another matrix");
         pose->time_s = (poses->count - 1) / rate_hz;
     }
     return true;
 }
 
-static bool read_tum(reader *r, raw_poses *poses)
+static bool read_tum(text_lines *r, raw_poses *poses)
 {
-    while (next_full_line(r)) {
+    while (text_lines_next_full(r)) {
         double n[8];
         raw_pose *pose = add_pose(r, poses);
-        if (!pose || !read_all_numbers(r, 8, "8 numbers: time, position, quaternion (TUM)", n))
+        if (!pose || !text_lines_all_numbers(r, r->line, 8, "8 numbers: time, position, quaternion (TUM)", n))
             return false;
         memcpy(pose->position, &n[1], sizeof pose->position);
         pose->time_s = n[0];
         if (!turn_by(r, &n[4], pose->axes))
             return false;
         if (poses->count > 1 && !(pose->time_s > pose[-1].time_s + SHORTEST_S))
-            return wrong_number(r, "a time after the one before", "%.17g", pose->time_s);
+            return text_lines_wrong_number(r, "a time after the one before", "%.17g", pose->time_s);
     }
     return true;
 }
 
 /* From world to camera: its columns are the world's axes seen by the camera, its rows the camera's axes. */
-static bool read_colmap_image(const reader *r, raw_pose *pose)
+static bool read_colmap_image(const text_lines *r, raw_pose *pose)
 {
     const char *expected = "an image: 9 numbers and a name (COLMAP's images.txt)", *name;
     double n[9], world[3][3];
     if (r->is_long)
-        return wrong(r, expected, "a very long line");
-    if (!read_numbers(r, 9, expected, n, &name))
+        return text_lines_wrong(r, expected, "a very long line");
+    if (!text_lines_numbers(r, r->line, 9, expected, n, &name))
         return false;
     if (!*name)
-        return wrong(r, expected, "no name");
+        return text_lines_wrong(r, expected, "no name");
     if (!turn_by(r, (const double[4]){n[2], n[3], n[4], n[1]}, world))
         return false;
     for (int axis = 0; axis < 3; axis++)
@@ -265,21 +170,22 @@ static bool read_colmap_image(const reader *r, raw_pose *pose)
 
 /* Behind each image comes a line of its points: threes of numbers, or nothing. A file from which empty lines were
  * removed would lose every second image. */
-static bool skip_points(reader *r)
+static bool skip_points(text_lines *r)
 {
     double n[10];
     const char *rest;
-    reader quiet = {.path = r->path};
-    if (!next_line(r) || r->is_long)
+    text_lines quiet = {.path = r->path};
+    if (!text_lines_next(r) || r->is_long)
         return true;
     memcpy(quiet.line, r->line, sizeof quiet.line);
-    return !read_numbers(&quiet, 9, "", n, &rest) || !*rest || read_numbers(&quiet, 10, "", n, &rest) ||
-           wrong(r, "the points of the image before (the line may be empty)", "an image");
+    return !text_lines_numbers(&quiet, quiet.line, 9, "", n, &rest) || !*rest ||
+           text_lines_numbers(&quiet, quiet.line, 10, "", n, &rest) ||
+           text_lines_wrong(r, "the points of the image before (the line may be empty)", "an image");
 }
 
-static bool read_colmap(reader *r, raw_poses *poses)
+static bool read_colmap(text_lines *r, raw_poses *poses)
 {
-    while (next_full_line(r)) {
+    while (text_lines_next_full(r)) {
         raw_pose *pose = add_pose(r, poses);
         if (!pose || !read_colmap_image(r, pose) || !skip_points(r))
             return false;
@@ -313,7 +219,7 @@ static bool number_in(const char *name, double *number)
     return end > start && *number <= 1e6;
 }
 
-static bool order_images(reader *r, const camera_poses_def *def, raw_poses *poses)
+static bool order_images(text_lines *r, const camera_poses_def *def, raw_poses *poses)
 {
     const bool by_number = def->images == CAMERA_POSES_BY_NUMBER;
     qsort(poses->list, poses->count, sizeof *poses->list, by_name);
@@ -322,7 +228,7 @@ static bool order_images(reader *r, const camera_poses_def *def, raw_poses *pose
         double number = i + def->first_frame;
         r->number = pose->line;
         if (by_number && !number_in(pose->image, &number))
-            return wrong(r, "a number up to 1000000 in the image's name", pose->image);
+            return text_lines_wrong(r, "a number up to 1000000 in the image's name", pose->image);
         pose->time_s = (number - def->first_frame) / def->rate_hz;
     }
     if (by_number)
@@ -331,32 +237,33 @@ static bool order_images(reader *r, const camera_poses_def *def, raw_poses *pose
         r->number = poses->list[i].line;
         if (by_number ? poses->list[i].time_s <= poses->list[i - 1].time_s
                       : !by_name(&poses->list[i], &poses->list[i - 1]))
-            return wrong(r, "each frame once", poses->list[i].image);
+            return text_lines_wrong(r, "each frame once", poses->list[i].image);
     }
     return true;
 }
 
 static bool read_times(const char *path, raw_poses *poses, char *error, size_t error_size)
 {
-    reader r;
+    text_lines r;
     uint32_t count = 0;
-    bool good = open_reader(&r, path, error, error_size);
+    bool good = text_lines_open(&r, path, error, error_size);
     if (!good)
         return false;
-    while (good && next_full_line(&r)) {
+    while (good && text_lines_next_full(&r)) {
         double time_s;
-        good = read_all_numbers(&r, 1, "a time in seconds", &time_s);
+        good = text_lines_all_numbers(&r, r.line, 1, "a time in seconds", &time_s);
         if (good && count == poses->count)
-            good = wrong_number(&r, "the end of the file", "more than %.0f times, one for each pose", poses->count);
+            good = text_lines_wrong_number(&r, "the end of the file", "more than %.0f times, one for each pose",
+                                           poses->count);
         if (good && count && !(time_s > poses->list[count - 1].time_s + SHORTEST_S))
-            good = wrong_number(&r, "a time after the one before", "%.17g", time_s);
+            good = text_lines_wrong_number(&r, "a time after the one before", "%.17g", time_s);
         if (good)
             poses->list[count++].time_s = time_s;
     }
     if (good && !ferror(r.file) && count < poses->count)
         good =
             file_fail(error, error_size, "%s: expected %u times, one for each pose, got %u", path, poses->count, count);
-    return close_reader(&r, good);
+    return text_lines_close(&r, good);
 }
 
 /* ---- the world ------------------------------------------------------------------------------------------------ */
@@ -384,7 +291,7 @@ static void world_from_file(const camera_poses_def *def, const raw_pose *first, 
         }
 }
 
-static bool convert(const reader *r, const camera_poses_def *def, const raw_poses *raw, camera_pose *poses)
+static bool convert(const text_lines *r, const camera_poses_def *def, const raw_poses *raw, camera_pose *poses)
 {
     const double start_s = def->format == CAMERA_POSES_COLMAP && !def->times ? 0 : raw->list[0].time_s;
     const raw_pose *first = &raw->list[0];
@@ -413,7 +320,7 @@ static bool convert(const reader *r, const camera_poses_def *def, const raw_pose
     return true;
 }
 
-static bool read_format(reader *r, const camera_poses_def *def, raw_poses *poses)
+static bool read_format(text_lines *r, const camera_poses_def *def, raw_poses *poses)
 {
     switch (def->format) {
     case CAMERA_POSES_KITTI: return read_kitti(r, poses, def->rate_hz);
@@ -426,13 +333,13 @@ static bool read_format(reader *r, const camera_poses_def *def, raw_poses *poses
 bool camera_poses_read(const camera_poses_def *def, camera_pose **poses, uint32_t *count, char *error,
                        size_t error_size)
 {
-    reader r;
+    text_lines r;
     raw_poses raw = {.list = NULL};
     *poses = NULL;
     *count = 0;
-    if (!open_reader(&r, def->file, error, error_size))
+    if (!text_lines_open(&r, def->file, error, error_size))
         return false;
-    bool good = close_reader(&r, read_format(&r, def, &raw));
+    bool good = text_lines_close(&r, read_format(&r, def, &raw));
     if (good && !raw.count)
         good = file_fail(error, error_size, "%s: expected at least one pose, got none", def->file);
     if (good && def->format == CAMERA_POSES_COLMAP)

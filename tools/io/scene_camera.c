@@ -27,6 +27,12 @@ static const scene_row focus_key_rows[] = {
 static const scene_group focus_key_group = SCENE_GROUP(scene_focus_key, focus_key_rows);
 
 static const scene_row calibration_rows[] = {
+    FILE_NAME(
+        scene_calibration, file, OPTIONAL,
+        "of COLMAP (cameras.txt), KITTI (calib_cam_to_cam.txt, calib.txt) or Cityscapes, in place of the numbers"),
+    OPTIONAL_TEXT(scene_calibration, camera, 40, RESTARTS,
+                  "its number in the file, as 02; '02 raw' for KITTI's pictures that are not rectified; without it the "
+                  "only one"),
     WHOLE(scene_calibration, size_px, 0, 65536, "[0, 0]", RESTARTS,
           "of the picture that the other numbers are for; 0: the plate's, without one frames.size"),
     NUMBER(scene_calibration, focal_px, 0, 1e6, "[0, 0]", RESTARTS,
@@ -204,7 +210,7 @@ static bool check_calibration(const scene_file *scene, char *error, size_t error
     return check_distortion(scene, error, error_size);
 }
 
-static bool check_lens(const scene_file *scene, char *error, size_t error_size)
+bool scene_camera_check_lens(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_camera *camera = &scene->camera;
     char key[64];
@@ -265,7 +271,7 @@ bool scene_camera_check(const scene_file *scene, char *error, size_t error_size)
     if (camera->far_m <= camera->near_m)
         return scene_file_refuse(scene, "camera.far_m", error, error_size, "expected more than near_m (%g), got %g",
                                  camera->near_m, camera->far_m);
-    if (!check_lens(scene, error, error_size) || !check_path(scene, error, error_size))
+    if (!scene_camera_check_lens(scene, error, error_size) || !check_path(scene, error, error_size))
         return false;
     for (uint32_t i = 0; i < camera->key_count; i++) {
         const scene_camera_key *now = &camera->keys[i];

@@ -9,4 +9,7 @@ extern const scene_group scene_camera_group;
 /* What one value alone does not show. */
 bool scene_camera_check(const scene_file *scene, char *error, size_t error_size);
 
+/* The part of it that is for the lens and its calibration. */
+bool scene_camera_check_lens(const scene_file *scene, char *error, size_t error_size);
+
 #endif

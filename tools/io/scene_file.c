@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "file.h"
+#include "scene_calibration.h"
 #include "scene_check.h"
 #include "scene_document.h"
 #include "scene_files.h"
@@ -54,7 +55,8 @@ static bool read_document(scene_document *document, const scene_section *const *
 {
     scene_format *format = scene_format_create(sections);
     bool good = format || scene_document_fail(document, 0, "no more memory");
-    good = good && scene_document_override(document, overrides, count) && scene_check(document, format);
+    good = good && scene_document_override(document, overrides, count) && scene_calibration_check_keys(document) &&
+           scene_check(document, format);
     if (good)
         *scene = scene_load(document, format);
     if (!*scene) {
@@ -64,7 +66,7 @@ static bool read_document(scene_document *document, const scene_section *const *
     (*scene)->format = format;
     (*scene)->source = document;
     if (check_sections(*scene, document->error, document->error_size) && scene_files_find(document, *scene) &&
-        scene_document_keep(document, count))
+        scene_calibration_read(*scene, document->error, document->error_size) && scene_document_keep(document, count))
         return true;
     (*scene)->source = NULL;
     scene_file_free(*scene);

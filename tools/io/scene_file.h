@@ -72,6 +72,8 @@ typedef enum scene_blur {
 
 /* What a calibration measures, in pixels of a picture of `size_px`. */
 typedef struct scene_calibration {
+    char *file;           /* that the numbers come from, see camera_calibration.h; NULL: from the keys */
+    char *camera;         /* in the file; NULL: the only one */
     uint32_t size_px[2];  /* 0, 0: see scene_camera_calibrated_size */
     double focal_px[2];   /* 0, 0: not calibrated */
     double center_px[2];  /* from the middle of the upper left pixel; 0, 0: the middle of the picture */

@@ -156,8 +156,9 @@ static void print_camera(const scene_file *scene)
 {
     const scene_camera *camera = &scene->camera;
     if (scene_camera_is_calibrated(scene))
-        printf("  calibration  focal length %g x %g pixels, %.1f degrees high\n", camera->calibration.focal_px[0],
-               camera->calibration.focal_px[1], scene_camera_fov_deg(scene));
+        printf("  calibration  focal length %g x %g pixels, %.1f degrees high%s%s\n", camera->calibration.focal_px[0],
+               camera->calibration.focal_px[1], scene_camera_fov_deg(scene), camera->calibration.file ? ", of " : "",
+               camera->calibration.file ? camera->calibration.file : "");
     if (camera->poses.file)
         printf("  camera       poses of %s, the first %g m high\n", camera->poses.file, camera->height_m);
     else if (camera->speed_m_s)
