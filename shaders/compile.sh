@@ -1,5 +1,6 @@
 #!/bin/sh
-# Compiles one shader to a C array and makes it small: half of the size, and a fifth less time for a driver to read it.
+# Compiles one shader to a C array and makes it smaller: by a quarter to two fifths, which is a fifth less time for a
+# driver to read it.
 # Usage: compile.sh GLSLANG SPIRV_OPT OPTION..., with the options that meson.build gives to glslangValidator
 #
 # All passes move, merge and remove instructions, and none computes: glslang's own -Os also folds constants, which

@@ -153,13 +153,14 @@ uint16_t ring_half(float number)
     const float size = fabsf(number);
     if (!(size < 65520)) /* halfway from the largest half float to the next power of two */
         return (uint16_t)(sign | 0x7c00);
-    if (size < 0x1p-14f) { /* whole numbers of 2^-24, and 2^-24 is the distance of floats from 0.5 on */
+    if (size < 0x1p-14f) { /* whole numbers of 2^-24, which is also the spacing of floats in [0.5; 1) */
         const float rounded = size + 0.5f;
         memcpy(&bits, &rounded, sizeof bits);
         return (uint16_t)(sign | (bits - 0x3f000000));
     }
     bits &= 0x7fffffff;
-    /* 13 digits less, to even where halfway; carrying into the exponent is right. Its bias is 15 in place of 127. */
+    /* 13 bits of the mantissa less, rounded to nearest even; a carry into the exponent is right. The exponent's bias is
+     * 15 in place of 127. */
     return (uint16_t)(sign | (((bits + 0xfff + (bits >> 13 & 1)) >> 13) - (112 << 10)));
 }
 

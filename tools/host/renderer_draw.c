@@ -274,19 +274,26 @@ static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const str
     host_label_end(r->device, cmd);
 }
 
-void host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
-                           const host_camera *previous)
+/* What both draws over a plate begin with: buffers of the frame, the mirror, and the descriptors. */
+static void begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                        const host_camera *previous, const char *label)
 {
     struct host_frame_gpu frame;
-    if (!r->footage || !r->ground.cells)
-        return;
-    drawing d = {.renderer = r, .cmd = cmd, .from = (pipelines)r->pipelines};
     update_skylight(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
     record_mirror(r, cmd, &frame, camera);
-    host_label_begin(r->device, cmd, "footage");
+    host_label_begin(r->device, cmd, label);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+}
+
+void host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                           const host_camera *previous)
+{
+    if (!r->footage || !r->ground.cells)
+        return;
+    drawing d = {.renderer = r, .cmd = cmd, .from = (pipelines)r->pipelines};
+    begin_plate(r, cmd, target, camera, previous, "footage");
     host_target_begin_over(target, cmd);
     for (uint32_t i = 0; i < r->entry_count; i++)
         if (r->entries[i].mesh == r->footage)
@@ -298,13 +305,7 @@ void host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_tar
 void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                          const host_camera *previous)
 {
-    struct host_frame_gpu frame;
-    update_skylight(r, cmd, camera);
-    host_renderer_fill_frame(r, target, camera, previous, &frame);
-    record_frame(r, cmd, &frame);
-    record_mirror(r, cmd, &frame, camera);
-    host_label_begin(r->device, cmd, "plate");
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    begin_plate(r, cmd, target, camera, previous, "plate");
     host_target_begin_plate(target, cmd);
     draw_scene(r, cmd, (pipelines)r->pipelines);
     host_target_end_plate(target, cmd);
