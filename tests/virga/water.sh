@@ -32,6 +32,17 @@ for file in water water_mesh; do
     cmp "$work/all/$file.0004.ply" "$work/alone/$file.0004.ply" || fail "$file of frame 4 alone is another one"
 done
 
+# Volumes, where the program was built with OpenVDB.
+if "$virga" help render | grep -q 'built without OpenVDB'; then
+    "$virga" render "$work/ball.yaml" -o "$work/volumes" --volumes 2>"$work/log" && fail "volumes without OpenVDB"
+    grep -q 'built without OpenVDB' "$work/log" || fail "no line about volumes"
+else
+    render volumes --frames 3-4 --volumes
+    render volume --frames 4 --volumes
+    cmp "$work/volumes/water_density.0004.vdb" "$work/volume/water_density.0004.vdb" || fail "a volume alone is another"
+    cmp -s "$work/volumes/water_density.0003.vdb" "$work/volume/water_density.0004.vdb" && fail "volumes do not change"
+fi
+
 # The ball covers some of the picture, and as much with sub-frames, which blur it.
 if command -v oiiotool >/dev/null; then
     covered() { # FOLDER OPTION...

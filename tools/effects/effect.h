@@ -87,6 +87,14 @@ typedef struct tool_mesh {
     bool (*make)(shot *s, void *state, tool_mesh_data *data, char *error, size_t error_size);
 } tool_mesh;
 
+/* A volume, a file per frame: `name`.%04u.vdb. */
+typedef struct tool_volume {
+    const char *name;
+    const char *help;
+    /* Writes that of the newest step. */
+    bool (*write)(shot *s, void *state, const char *path, char *error, size_t error_size);
+} tool_volume;
+
 /* The time and the views of an image. */
 typedef struct tool_moment {
     const virga_view *jittered; /* with the jitter of the sub-frame */
@@ -254,6 +262,7 @@ typedef struct tool_effect {
 
     const tool_points *points;
     const tool_mesh *mesh;
+    const tool_volume *volume;
     /* Finds something by name that a camera can focus on, for a camera at a time of its path: a point of it, and the
      * normal of its surface there, or all zero. NULL: it has nothing that has a name. */
     bool (*find)(shot *s, void *state, const char *name, double camera_s, double point_m[3], double normal[3]);

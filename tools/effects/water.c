@@ -542,6 +542,7 @@ const tool_effect water_effect = {
     .prepare = prepare,
     .points = &water_points,
     .mesh = &water_surface_mesh,
+    .volume = &water_density_volume,
     .write_stats = write_stats,
     .bench = &water_bench,
     .title = "Water",

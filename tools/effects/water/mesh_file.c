@@ -19,34 +19,32 @@ static const ply_property vertex_columns[] = {
     {"nz", PLY_FLOAT, POINT_COLUMN(mesh_vertex, normal, 2)},
 };
 
-static bool make_mesh(const scene_file *scene, const water_state *state, const virga_particle_gpu *particles,
-                      uint32_t count, water_mesh *mesh)
+bool water_make_field(shot *s, water_state *state, field *made, char *error, size_t error_size)
 {
-    const scene_water *from = scene_water_of(scene);
-    const field_def def = {.particles = particles,
-                           .count = count,
-                           .spacing_m = state->source.spacing_m,
-                           .volume_m3 = from->volume * pow(state->source.spacing_m, 3),
-                           .kernel_spacings = from->kernel_spacings};
-    field made;
-    const bool ok = field_create(&made, &def) && water_mesh_create(mesh, &made, from->level);
-    field_destroy(&made);
-    return ok;
+    const scene_water *from = scene_water_of(s->scene);
+    field_def def = {.spacing_m = state->source.spacing_m,
+                     .volume_m3 = from->volume * pow(state->source.spacing_m, 3),
+                     .kernel_spacings = from->kernel_spacings};
+    virga_particle_gpu *particles = water_copy_particles(s, state, &def.count, error, error_size);
+    if (!particles)
+        return false;
+    def.particles = particles;
+    const bool ok = field_create(made, &def);
+    free(particles);
+    return ok || host_fail(error, error_size, "no memory for the density of %u particles", def.count);
 }
 
 static bool make(shot *s, void *state, tool_mesh_data *data, char *error, size_t error_size)
 {
-    water_state *p = state;
     const scene_water *from = scene_water_of(s->scene);
-    uint32_t count;
+    field made;
     water_mesh mesh = {0};
-    virga_particle_gpu *particles = water_copy_particles(s, p, &count, error, error_size);
-    if (!particles)
+    if (!water_make_field(s, state, &made, error, error_size))
         return false;
-    const bool ok = make_mesh(s->scene, p, particles, count, &mesh);
-    free(particles);
+    const bool ok = water_mesh_create(&mesh, &made, from->level);
+    field_destroy(&made);
     if (!ok)
-        return host_fail(error, error_size, "no memory for the mesh of %u particles", count);
+        return host_fail(error, error_size, "no memory for the mesh of the water");
     for (uint32_t i = 0; i < mesh.vertex_count; i++)
         for (int axis = 0; axis < 3; axis++)
             mesh.vertices[i].position[axis] = (float)((double)mesh.vertices[i].position[axis] + from->position_m[axis]);

@@ -160,5 +160,10 @@ virga_particle_gpu *water_copy_particles(shot *s, water_state *state, uint32_t *
 
 extern const tool_points water_points, water_spray_points, water_foam_points, water_particle_points;
 extern const tool_mesh water_surface_mesh;
+extern const tool_volume water_density_volume;
+
+/* Adds up the particles of the newest step on a grid. False: see `error`. */
+struct field;
+bool water_make_field(shot *s, water_state *state, struct field *made, char *error, size_t error_size);
 
 #endif

@@ -11,6 +11,7 @@
 #include "progress.h"
 #include "shot/checkpoint.h"
 #include "shot/plate.h"
+#include "volume.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -39,6 +40,7 @@ static const option_row rows[] = {
      false},
     {"--points", 0, NULL, "also write point caches, see below", false},
     {"--meshes", 0, NULL, "also write triangle meshes, see below", false},
+    {"--volumes", 0, NULL, "also write volumes, see below", false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object per frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is installed, preview.mp4", false},
     {"--plate", 0, "PATTERN",
@@ -92,6 +94,8 @@ void render_help(void)
     frame_points_help();
     printf("\nTriangle meshes, with --meshes:\n");
     frame_meshes_help();
+    printf("\nVolumes, with --volumes%s:\n", volume_is_there() ? "" : " (this program was built without OpenVDB)");
+    frame_volumes_help();
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
@@ -113,7 +117,7 @@ typedef struct render_job {
     const char *directory, *task; /* task: of --claim, or NULL */
     uint32_t frames[2], layers;
     picture_format picture; /* bits 0: none */
-    bool points, meshes, stats, preview, resume, simulate;
+    bool points, meshes, volumes, stats, preview, resume, simulate;
     jsonl stats_file;
     bool stats_open;
     bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
@@ -134,6 +138,9 @@ static bool read_options(render_job *job, int argc, char **argv)
         return options_complain("render", "expected -o DIR, the folder for the files");
     job->points = options_value(&job->parsed, "--points");
     job->meshes = options_value(&job->parsed, "--meshes");
+    job->volumes = options_value(&job->parsed, "--volumes");
+    if (job->volumes && !volume_is_there())
+        return options_complain("render", "--volumes: this program was built without OpenVDB");
     job->stats = options_value(&job->parsed, "--stats");
     job->preview = options_value(&job->parsed, "--preview");
     job->task = options_value(&job->parsed, "--claim");
@@ -144,8 +151,9 @@ static bool read_options(render_job *job, int argc, char **argv)
     if (job->simulate && !options_value(&job->parsed, "--checkpoint-every"))
         return options_complain("render",
                                 "--simulate: expected --checkpoint-every with it, as nothing else is written");
-    if (job->simulate && (job->points || job->meshes || job->stats || job->preview))
-        return options_complain("render", "--simulate: expected no --points, --meshes, --stats or --preview with it");
+    if (job->simulate && (job->points || job->meshes || job->volumes || job->stats || job->preview))
+        return options_complain("render",
+                                "--simulate: expected no --points, --meshes, --volumes, --stats or --preview with it");
     return frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
 }
 
@@ -283,6 +291,7 @@ static resume_request request_of(const render_job *job)
                             .picture = job->picture,
                             .points = job->points,
                             .meshes = job->meshes,
+                            .volumes = job->volumes,
                             .preview = job->preview,
                             .stats = job->stats};
 }
@@ -356,6 +365,7 @@ static bool write_frame(render_job *job, uint32_t frame)
     if (!frame_writer_wait(&job->writer, error, size) ||
         (job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
         (job->meshes && !frame_write_meshes(s, job->directory, frame, error, size)) ||
+        (job->volumes && !frame_write_volumes(s, job->directory, frame, error, size)) ||
         (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)))
         return false;
     frame_writer_begin(&job->writer, s, &camera, frame);

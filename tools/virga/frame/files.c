@@ -271,3 +271,40 @@ bool frame_write_meshes(shot *s, const char *directory, uint32_t frame, char *er
             return false;
     return true;
 }
+
+/* ---- volumes */
+
+const char *frame_volume_name(const scene_file *scene, uint32_t index)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->volume && tool_effect_is_used(tool_effects[i], scene) && !index--)
+            return tool_effects[i]->volume->name;
+    return NULL;
+}
+
+void frame_volume_path(const char *directory, const char *name, uint32_t frame, char *path, size_t size)
+{
+    snprintf(path, size, "%s/%s.%04u.vdb", directory, name, frame);
+}
+
+void frame_volumes_help(void)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->volume)
+            printf("    %c %s.%%04d.vdb%*s %s\n", tool_effects[i]->is_used ? '*' : ' ', tool_effects[i]->volume->name,
+                   (int)(19 - strlen(tool_effects[i]->volume->name)), "", tool_effects[i]->volume->help);
+}
+
+bool frame_write_volumes(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    char path[4096];
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        const tool_volume *volume = tool_effects[i]->volume;
+        if (!volume || !tool_effect_is_used(tool_effects[i], s->scene))
+            continue;
+        frame_volume_path(directory, volume->name, frame, path, sizeof path);
+        if (!volume->write(s, s->states[i], path, error, error_size))
+            return false;
+    }
+    return true;
+}

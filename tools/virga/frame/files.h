@@ -49,6 +49,12 @@ const char *frame_mesh_name(const scene_file *scene, uint32_t index);
 void frame_meshes_help(void);
 bool frame_write_meshes(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
+/* The same for volumes. */
+const char *frame_volume_name(const scene_file *scene, uint32_t index);
+void frame_volume_path(const char *directory, const char *name, uint32_t frame, char *path, size_t size);
+void frame_volumes_help(void);
+bool frame_write_volumes(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+
 /* Adds the frame's line to stats.jsonl: stats.c. */
 bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_t error_size);
 

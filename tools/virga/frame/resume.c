@@ -83,6 +83,10 @@ static bool has_files(const resume_request *request, uint32_t frame)
         frame_points_path(request->directory, name, frame, path, sizeof path);
         has = has && has_file(path);
     }
+    for (uint32_t i = 0; request->volumes && (name = frame_volume_name(request->scene, i)); i++) {
+        frame_volume_path(request->directory, name, frame, path, sizeof path);
+        has = has && has_file(path);
+    }
     return has;
 }
 

@@ -12,10 +12,10 @@ typedef struct resume_request {
     const char *directory;
     uint32_t first, last;
     uint32_t width, height, samples, layers;
-    const char *plate, *depth, *ground_mask; /* as given; NULL: none */
-    uint32_t water_velocity;                 /* percent; 0: none */
-    picture_format picture;                  /* bits 0: none */
-    bool points, meshes, preview, stats;     /* the files beside frame.%04d.exr */
+    const char *plate, *depth, *ground_mask;      /* as given; NULL: none */
+    uint32_t water_velocity;                      /* percent; 0: none */
+    picture_format picture;                       /* bits 0: none */
+    bool points, meshes, volumes, preview, stats; /* the files beside frame.%04d.exr */
 } resume_request;
 
 /* Finds the frames that are there with all requested files: `there` gets last - first + 1 flags, which need free().
