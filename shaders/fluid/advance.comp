@@ -54,7 +54,7 @@ float mean_pressure(uint i, float wall_pull)
 // A particle that came into a body is put back to its surface, and loses the velocity into it. The body gets that.
 void leave_body(uint touch, inout vec3 p, inout vec3 velocity)
 {
-    const uint body = touches[touch].w;
+    const uint body = touch_body(touches[touch]);
     if (body == NO_BODY)
         return;
     vec3 given = vec3(0.0);

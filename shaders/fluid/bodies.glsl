@@ -15,13 +15,32 @@
 
 #define NO_BODY 0xffffffffu
 
+// The last word of a touch: the body, and which shares of the particle's weight it carries across its surface and along
+// it, in 12 bits each.
+uint touch_word(uint body, vec2 shares)
+{
+    const uvec2 parts = uvec2(4095.0 * clamp(shares, 0.0, 1.0) + 0.5);
+    return parts.x << 20 | parts.y << 8 | body;
+}
+uint touch_body(uvec4 touch) { return touch.w == NO_BODY ? NO_BODY : touch.w & 0xffu; }
+
+// The part of gravity (m/s^2) that a body takes from a particle, and that it feels in its place. The gradient stands on
+// its surface.
+vec3 body_carries(uvec4 touch)
+{
+    const vec3 normal = uintBitsToFloat(touch.xyz), gravity = to_vec(frame.gravity_m_s2);
+    const vec3 across = dot(gravity, normal) / max(dot(normal, normal), 1e-12) * normal;
+    const vec2 shares = vec2(touch.w >> 20, touch.w >> 8 & 0xfffu) / 4095.0;
+    return shares.x * across + shares.y * (gravity - across);
+}
+
 // Their states; then, for each of them, frame.max_contacts indices of touches.
 layout(scalar, set = 0, binding = 7) BODIES_ACCESS buffer Bodies {
     virga_fluid_body_gpu bodies[VIRGA_FLUID_MAX_BODIES];
     uint contacts[];
 };
 // For each sorted particle and each body that it touches: the gradient of the body's part of its density (1 / spacing),
-// and the body. After advance.comp: the momentum that it gave to the body, as a velocity of the particle.
+// and touch_word. After advance.comp: the momentum that it gave to the body, as a velocity of the particle.
 layout(std430, set = 0, binding = 21) TOUCHES_ACCESS buffer Touches { uvec4 touches[]; };
 TEXELS(touch_texel, 22, 21)
 // Nodes of all maps, then points. See engine/fluid/body_mesh.h.

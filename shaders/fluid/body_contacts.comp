@@ -17,7 +17,7 @@ shared uint words[VIRGA_FLUID_LANES / 32];
 uint touch_of(uint i, uint body)
 {
     for (uint k = 0u; k < VIRGA_FLUID_TOUCHES; k++)
-        if (touch_texel(VIRGA_FLUID_TOUCHES * i + k).w == body)
+        if (touch_body(touch_texel(VIRGA_FLUID_TOUCHES * i + k)) == body)
             return VIRGA_FLUID_TOUCHES * i + k;
     return NO_BODY;
 }

@@ -15,9 +15,10 @@ void main()
     const vec3 center = to_vec(bodies[body].center);
     Push own = Push(vec3(0.0), vec3(0.0));
     for (uint n = gl_LocalInvocationIndex; n < count; n += VIRGA_FLUID_LANES) {
-        const uint touch = contact_of(body, n);
-        const vec4 place = place_at(touch / VIRGA_FLUID_TOUCHES);
-        const vec3 force = place.w * uintBitsToFloat(touch_texel(touch)).xyz;
+        const uint index = contact_of(body, n);
+        const uvec4 touch = touch_texel(index);
+        const vec4 place = place_at(index / VIRGA_FLUID_TOUCHES);
+        const vec3 force = place.w * uintBitsToFloat(touch.xyz) + frame.spacing_m * body_carries(touch);
         own.force += force;
         own.torque += cross(frame.spacing_m * place.xyz - center, force);
     }

@@ -53,7 +53,7 @@ float approach(uint i)
     for (uint k = 0u; k < VIRGA_FLUID_TOUCHES; k++) {
         const uvec4 touch = touch_texel(VIRGA_FLUID_TOUCHES * i + k);
         if (touch.w != NO_BODY)
-            approaching -= dot(body_velocity(touch.w, frame.spacing_m * here), uintBitsToFloat(touch.xyz));
+            approaching -= dot(body_velocity(touch_body(touch), frame.spacing_m * here), uintBitsToFloat(touch.xyz));
     }
     return approaching;
 }

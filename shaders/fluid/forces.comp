@@ -45,5 +45,5 @@ void main()
     const float diffusion = min(state.dt_s * frame.viscosity_m2_s * frame.inv_spacing_m * frame.inv_spacing_m,
                                 MAX_DIFFUSION);
     velocities[i].xyz =
-        velocity + state.dt_s * to_vec(frame.gravity_m_s2) + (10.0 * KERNEL_FACTOR * diffusion) * sum;
+        velocity + state.dt_s * uintBitsToFloat(velocity_texel(i)).xyz + (10.0 * KERNEL_FACTOR * diffusion) * sum;
 }

@@ -51,6 +51,8 @@ float plane_slope(float s) { return -6.2831853072 * s * kernel(s); }
 // energy.
 //
 // The sum over a plane is 2 pi int_s^2 r^2 |W'(r)| dr = 2 pi s^2 W(s) + 2 P(s).
+float plane_density(float z) { return plane(max(z, 0.0) + 0.5) + plane(max(z, 0.0) + 1.5); }
+
 vec3 wall(float z)
 {
     const float near = z + 0.5, far = z + 1.5, planes = plane(near) + plane(far);
@@ -62,6 +64,35 @@ vec3 axis_walls(float low, float high)
 {
     const vec3 l = wall(low), h = wall(high);
     return vec3(l.x + h.x, l.y - h.y, l.z + h.z);
+}
+
+// What a wall carries of a particle's weight. In water at rest the pressure behind a wall is not the same as before it:
+// it changes by g s from a particle to a layer at the distance s. If it were the same, water would press on its floor
+// as if it stood half a spacing higher, and a body would float too high by as much. So we let the pressure go on behind
+// the wall with its gradient (Band et al. 2018, MLS Pressure Boundaries for Divergence-Free and Viscous SPH Fluids). An
+// integral over a plane is s |P'(s)| for the direction across it, and P(s) for each direction in it. This adds
+//
+//     across the wall: -grad p sum_s s |P'(s)|,        along it: -grad p sum_s P(s).
+//
+// The first sum is 1/2 at z = 1/2. Nothing moves through a wall at rest: the gradient across it is that of gravity.
+float carried_across(float z) { return -(z + 0.5) * plane_slope(z + 0.5) - (z + 1.5) * plane_slope(z + 1.5); }
+
+// For each axis, of the walls of the box: the share that they carry of gravity, and of the pressure's gradient along
+// them. In edges they carry the same water once.
+struct BoxCarries {
+    vec3 across, along;
+};
+
+BoxCarries box_carries(vec3 p, vec3 low, vec3 high)
+{
+    vec3 across, left;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        const float from_low = max(p[axis] - low[axis], 0.0), from_high = max(high[axis] - p[axis], 0.0);
+        across[axis] = min(carried_across(from_low) + carried_across(from_high), 1.0);
+        left[axis] = 1.0 - min(plane_density(from_low) + plane_density(from_high), 1.0);
+    }
+    const vec3 others = left.yzx * left.zxy;
+    return BoxCarries(across * others, 1.0 - others);
 }
 
 struct BoxWalls {

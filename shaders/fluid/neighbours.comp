@@ -12,8 +12,10 @@
 // |G|^2 m / M. All particles around the body do so at once, and in the worst case in step. Theirs are as many as the
 // body's area has squares of a spacing, which is what `response` has: m / M times this number.
 //
-// One invocation per sorted particle. Reads: sorted, cell_starts, bodies, maps. Writes: lists, walls, velocities.w,
-// sorted.w, touches.
+// The velocities are not needed as they were: in their place stands gravity, less what walls and bodies carry of it.
+//
+// One invocation per sorted particle. Reads: sorted, positions, cell_starts, bodies, maps. Writes: lists, walls,
+// velocities, sorted.w, touches.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -26,9 +28,54 @@
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
 
+// What decides how much of a particle's weight walls carry, see kernel.glsl.
+struct Weight {
+    vec3 gravity; // m/s^2, less what they carry
+    vec3 rise;    // gradient of the pressure between the particles (m/s^2)
+    float rests;  // share across walls
+};
+
+// Of the gradient of water at rest, in directions along walls, which have `seen` of it in `rise`.
+float share_of(vec3 rise, vec3 gravity, float seen)
+{
+    return clamp(dot(rise, gravity) / max(dot(gravity, gravity) * seen, 1e-9), 0.0, 1.0);
+}
+
+// Nothing while the particle has no pressure, as in free fall. In the first layer over a floor pressure is half of what
+// a spacing adds.
+float share_at(float pressure)
+{
+    return min(pressure / max(0.5 * frame.spacing_m * length(to_vec(frame.gravity_m_s2)), 1e-9), 1.0);
+}
+
+void carry_by_box(vec3 p, vec3 low, vec3 high, inout Weight weight)
+{
+    const BoxCarries carries = box_carries(p, low, high);
+    for (uint axis = 0u; axis < 3u; axis++) {
+        const vec3 pull = frame.gravity_m_s2[axis] * vec3(axis == 0u, axis == 1u, axis == 2u);
+        const float seen = 1.0 - carries.across[axis] - carries.along[axis];
+        weight.gravity -= (weight.rests * carries.across[axis] +
+                           share_of(weight.rise, pull, max(seen, 0.2)) * carries.along[axis]) * pull;
+    }
+}
+
+// The word of a touch, and what the body carries off the weight.
+uvec4 touch_of(uint body, Near near, inout Weight weight)
+{
+    const vec3 gravity = to_vec(frame.gravity_m_s2), normal = near.gradient;
+    const vec3 along = gravity - dot(gravity, normal) / max(dot(normal, normal), 1e-12) * normal;
+    const float across = near.density / max(plane_density(near.distance), 1e-6) *
+                         carried_across(max(near.distance, 0.0));
+    const vec2 shares = vec2(weight.rests * across,
+                             share_of(weight.rise, along, max(1.0 - near.density, 0.2)) * near.density);
+    const uvec4 touch = uvec4(floatBitsToUint(normal), touch_word(body, shares));
+    weight.gravity -= body_carries(touch);
+    return touch;
+}
+
 // Adds the bodies near a particle to what it has from the walls, and notes which it touches. Returns their part of 1 /
 // alpha.
-float add_bodies(uint i, vec3 p, inout BoxWalls wall)
+float add_bodies(uint i, vec3 p, inout BoxWalls wall, inout Weight weight)
 {
     uint count = 0u;
     float yielding = 0.0;
@@ -43,7 +90,7 @@ float add_bodies(uint i, vec3 p, inout BoxWalls wall)
         if (count >= VIRGA_FLUID_TOUCHES)
             continue;
         yielding += shapes.of[body].response * squared;
-        touches[VIRGA_FLUID_TOUCHES * i + count++] = uvec4(floatBitsToUint(near.gradient), body);
+        touches[VIRGA_FLUID_TOUCHES * i + count++] = touch_of(body, near, weight);
     }
     for (; count < VIRGA_FLUID_TOUCHES; count++)
         touches[VIRGA_FLUID_TOUCHES * i + count] = uvec4(uvec3(0u), NO_BODY);
@@ -55,23 +102,26 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= grid.sorted)
         return;
-    const vec3 here = place_at(i).xyz;
+    const vec4 place = place_at(i);
+    const vec3 here = place.xyz;
     const uvec3 dims = grid_dims();
     const uint cell = cell_at(to_vec(particles[sorted_indices[i]].position));
     float density = 0.0, squares = 0.0;
-    vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0), rise = vec3(0.0);
     uvec4 four = uvec4(i);
     uint count = 0u;
     for (uint row = 0u; row < 9u; row++) {
         const uvec2 run = neighbour_row(cell, row, dims);
         for (uint j = run.x; j < run.y; j++) {
-            const vec3 apart = here - place_at(j).xyz;
+            const vec4 other = place_at(j);
+            const vec3 apart = here - other.xyz;
             const float r2 = dot(apart, apart);
             if (r2 >= 4.0 || j == i || count >= 4u * VIRGA_FLUID_LIST_TEXELS)
                 continue;
             const float s = slope(r2);
             density += kernel(sqrt(r2));
             sum += s * apart;
+            rise += ((other.w - place.w) * s) * apart;
             squares += s * s * r2;
             four = uvec4(four.yzw, j);
             count++;
@@ -84,15 +134,17 @@ void main()
     // The last ones, filled up with the particle itself, whose gradient is 0.
     if ((count & 3u) != 0u)
         lists[count / 4u * frame.stride + i] = four;
-    BoxWalls wall =
-        box_walls(here, to_vec(frame.low_m) * frame.inv_spacing_m, to_vec(frame.high_m) * frame.inv_spacing_m);
+    const vec3 low = to_vec(frame.low_m) * frame.inv_spacing_m, high = to_vec(frame.high_m) * frame.inv_spacing_m;
+    BoxWalls wall = box_walls(here, low, high);
+    Weight weight = Weight(to_vec(frame.gravity_m_s2), KERNEL_FACTOR * frame.inv_spacing_m * rise, share_at(place.w));
+    carry_by_box(here, low, high, weight);
     float yielding = 0.0;
     if (WITH_BODIES)
-        yielding = add_bodies(i, frame.spacing_m * here, wall);
+        yielding = add_bodies(i, frame.spacing_m * here, wall, weight);
     sum = KERNEL_FACTOR * sum + wall.gradient;
     const float inverse = dot(sum, sum) + KERNEL_FACTOR * KERNEL_FACTOR * squares + yielding;
     walls[i] = vec4(wall.gradient, inverse > 1e-6 ? 1.0 / inverse : 0.0);
-    velocities[i].w = KERNEL_SELF + density + wall.density;
+    velocities[i] = vec4(weight.gravity, KERNEL_SELF + density + wall.density);
     sorted[i] = vec4(here, float((count + 3u) / 4u));
     moved[i].w = wall.pull;
 }

@@ -128,6 +128,16 @@ static inline double fluid_energy(const fluid_fixture *f)
     return sum / f->count;
 }
 
+/* Root of the mean square of all speeds (m/s). */
+static inline double fluid_noise(const fluid_fixture *f)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < f->count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            sum += pow((double)f->particles[i].velocity[axis], 2);
+    return sqrt(sum / f->count);
+}
+
 /* Mean height of the particles over the floor (m): half the depth of water at rest. */
 static inline double fluid_mean_height(const fluid_fixture *f)
 {

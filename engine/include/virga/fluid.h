@@ -16,9 +16,9 @@
  *     virga_water_step(water, cmd, &water_info);
  *
  * What is shown (tests/fluid): the front of a collapsing column runs as Martin and Moyce measured (1952); the depth of
- * standing water is kept within 1 %, and its pressure is hydrostatic within 5 % of that at the floor; a collapse loses
- * energy in every step. Water and a body that it moves keep their momentum together, and lose energy. A cube eight
- * spacings wide floats 0.65 spacings too high: where bodies stir the water, it is less dense than the kernel sees.
+ * standing water is kept within 1 %, and its pressure is hydrostatic within 2 % of that at the floor; its particles
+ * come to rest at less than 0.02 m/s; a collapse loses energy in every step. Water and a body that it moves keep their
+ * momentum together, and lose energy. A cube eight spacings wide floats at the depth of Archimedes within 5 %.
  *
  * Deterministic: the same calls with the same values give the same bits, for any number of threads. The device decides
  * on substeps and iterations; the host never waits for it.
