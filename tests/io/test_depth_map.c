@@ -258,6 +258,31 @@ static void damage_never_crashes(void **state)
     }
 }
 
+/* Known are two pixels: nothing above the higher one is filled, and what is below gets the nearest. */
+static void holes_get_the_nearest_known_depth(void **state)
+{
+    enum { W = 40, H = 6 };
+    float metres[W * H] = {0};
+    (void)state;
+    metres[2 * W + 3] = 5;
+    metres[4 * W + 13] = 9;
+    assert_true(depth_map_fill(metres, W, H));
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            const int near = abs(x - 3) + abs(y - 2), far = abs(x - 13) + abs(y - 4);
+            const float got = metres[y * W + x];
+            if (y < 2 || x > 13 + 8 || (x > 3 + 8 && y < 4))
+                assert_true(got == 0);
+            else if (near < far - 2)
+                assert_true(got == 5);
+            else if (far < near - 2)
+                assert_true(got == 9);
+        }
+    float none[4] = {0};
+    assert_true(depth_map_fill(none, 2, 2));
+    assert_true(none[0] == 0 && none[3] == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -269,6 +294,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(rays_start_at_the_axis_of_the_camera, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(rays_of_a_lens_are_undone, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_not_known_is_zero, make_folder, remove_folder),
+        cmocka_unit_test(holes_get_the_nearest_known_depth),
         cmocka_unit_test_setup_teardown(wrong_files_are_refused, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(damage_never_crashes, make_folder, remove_folder),
     };

@@ -7,9 +7,9 @@ shift 2
 . "$(cd "$(dirname "$0")" && pwd)/common.sh" "$virga"
 [ $# -gt 0 ] || set -- $(cd "$source/assets/scenes" && ls *.yaml | sed 's/\.yaml$//')
 
-# Options that make a scene small: pre-rolls are short, and water has few particles.
+# Options that make a scene small: pre-rolls are short, and water has few particles. A calibrated camera has its aspect.
 small() {
-    echo "--size 96x54"
+    grep -q 'calibration:' "$1" && echo "--size 96x72" || echo "--size 96x54"
     grep -q 'preroll_s' "$1" && echo "--set frames.preroll_s=0.2"
     grep -q '^  solver:' "$1" && echo "--set water.solver.spacing_m=0.05"
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "effect.h"
-#include "point_columns.h"
+#include "rain/rain_drop.h"
 #include "rain/rain_state.h"
 #include "scene_rows.h"
 
@@ -296,13 +296,7 @@ static const tool_layer layers[] = {
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
 
-/* One drop of the point cache. */
-typedef struct drop {
-    POINT_MEMBERS;
-    float weight;
-} drop;
-
-static const ply_property drop_columns[] = {POINT_COLUMNS(drop), POINT_FLOAT(drop, weight)};
+static const ply_property drop_columns[] = {POINT_COLUMNS(rain_drop), POINT_FLOAT(rain_drop, weight)};
 
 static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error, size_t error_size)
 {
@@ -317,13 +311,13 @@ static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error,
 static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size)
 {
     rain_state *r = state;
-    drop *drops = *rows = shot_finish_rows(s, &r->drops, sizeof *drops, error, error_size);
+    rain_drop *drops = *rows = shot_finish_rows(s, &r->drops, sizeof *drops, error, error_size);
     const virga_point_gpu *from = r->drops.buffer.mapped;
     *count = 0;
     for (uint32_t i = 0; drops && i < r->drops.count; i++) {
         if (from[i].weight <= 0)
             continue;
-        drop *to = &drops[(*count)++];
+        rain_drop *to = &drops[(*count)++];
         shot_read_position(&r->drops, from[i].position, to->position);
         memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
         to->radius_m = 0.5f * from[i].diameter_m;
@@ -335,7 +329,7 @@ static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char 
 }
 
 static const tool_points points = {
-    TOOL_POINTS(drop_columns, drop, record_drops, read_drops),
+    TOOL_POINTS(drop_columns, rain_drop, record_drops, read_drops),
     .comment = "virga rain: metres, seconds; weight is the drops that a point stands for",
     .help = "the drops under the open sky",
 };

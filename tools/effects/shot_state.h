@@ -22,6 +22,7 @@ typedef struct shot_options {
     bool stats;                           /* statistics are read, also those that cost device time */
     bool points;                          /* point caches are read back after each step */
     const char *plate;                    /* footage that replaces the opaque scene, see plate.h; NULL: none */
+    bool stills;                          /* (plate) plate and depth are names of files; shot_show replaces them */
     const char *ground_mask;              /* (plate) what of it is ground; NULL: all that footage.ground has */
     const char *depth;                    /* (plate) its depth; NULL: footage.depth_m of the scene */
     uint32_t frames[2];                   /* (plate) first and last frame to be drawn */
@@ -85,6 +86,7 @@ typedef struct shot {
     host_buffer plate_buffer;          /* uploads its pixels */
     host_buffer plate_depth_buffer;    /* uploads its depth; none without depth */
     host_buffer state;                 /* a saved state, see checkpoint.h; created on first use */
+    uint32_t kept_frame;               /* frame of the state that checkpoint_keep has kept in it */
     uint32_t frame_index;              /* the simulation's current scene frame; first - 1 before the first step */
     uint64_t step_frame;               /* frame of the device in which the newest step was recorded */
     uint32_t preroll;                  /* remaining frames of the scene's pre-roll */

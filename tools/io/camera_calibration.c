@@ -14,6 +14,7 @@
 #define MAX_FOCAL_PX   1e6
 #define MAX_CENTER_PX  1e5
 #define MAX_DISTORTION 1e3
+#define MAX_RIGHT_M    100.0
 #define MAX_JSON_BYTES (1u << 20)
 
 /* ---- checks of numbers, all of the line that was read last ---------------------------------------------------- */
@@ -195,7 +196,8 @@ static bool read_named(text_lines *r, const char *name, uint32_t count, double *
     return found || file_fail(r->error, r->error_size, "%s: expected a line %s of the camera, got none", r->path, name);
 }
 
-/* Rows of a camera matrix with `columns` columns: fx 0 cx, 0 fy cy, 0 0 1. A fourth column is where the camera is. */
+/* Rows of a camera matrix with `columns` columns: fx 0 cx, 0 fy cy, 0 0 1. A fourth column is where the camera is: its
+ * first number is -fx times how far it is to the right. */
 static bool read_matrix(text_lines *r, const char *name, uint32_t columns, camera_calibration *c)
 {
     double m[12];
@@ -204,7 +206,11 @@ static bool read_matrix(text_lines *r, const char *name, uint32_t columns, camer
     const double *row[3] = {m, m + columns, m + 2 * columns};
     if (row[0][1] != 0 || row[1][0] != 0 || row[2][0] != 0 || row[2][1] != 0 || row[2][2] != 1)
         return text_lines_wrong(r, "rows fx 0 cx, 0 fy cy, 0 0 1 of a camera matrix", "another matrix");
-    return take_pinhole(r, row[0][0], row[1][1], row[0][2], row[1][2], 0, c);
+    if (!take_pinhole(r, row[0][0], row[1][1], row[0][2], row[1][2], 0, c))
+        return false;
+    c->right_m = columns > 3 ? -row[0][3] / row[0][0] : 0;
+    return fabs(c->right_m) <= MAX_RIGHT_M ||
+           text_lines_wrong_number(r, "a camera up to 100 m to the right of camera 0", "%g m", c->right_m);
 }
 
 static bool read_size(text_lines *r, const char *name, camera_calibration *c)

@@ -19,6 +19,7 @@ typedef struct camera_calibration {
     double focal_px[2];   /* fx, fy; above 0 */
     double center_px[2];  /* cx, cy, from the middle of the upper left pixel; not both 0 */
     double distortion[5]; /* k1 k2 p1 p2 k3, see distortion.h */
+    double right_m;       /* (KITTI, rectified) how far it is to the right of camera 0 */
 } camera_calibration;
 
 /* Reads one camera. `camera` is its number; of KITTI's raw files also "02 raw", for pictures that are not rectified.

@@ -85,3 +85,57 @@ bool depth_map_read(const char *path, const depth_map_def *def, uint32_t *width,
     }
     return true;
 }
+
+/* ---- holes */
+
+/* The highest row of each column that has a known pixel, or one of `REACH` columns to its sides has. */
+static bool find_tops(const float *metres, uint32_t width, uint32_t height, uint32_t *tops)
+{
+    enum { REACH = 8 };
+    uint32_t *own = malloc(width * sizeof *own);
+    if (!own)
+        return false;
+    for (uint32_t x = 0; x < width; x++)
+        for (own[x] = 0; own[x] < height && !(metres[(size_t)own[x] * width + x] > 0);)
+            own[x]++;
+    for (uint32_t x = 0; x < width; x++) {
+        tops[x] = height;
+        for (uint32_t at = x > REACH ? x - REACH : 0; at < width && at <= x + REACH; at++)
+            tops[x] = own[at] < tops[x] ? own[at] : tops[x];
+    }
+    free(own);
+    return true;
+}
+
+/* Known pixels spread, one step to each of their four neighbors in a round, in the order in which they were reached. */
+static void spread(float *metres, uint32_t width, uint32_t height, const uint32_t *tops, size_t *queue)
+{
+    const size_t pixels = (size_t)width * height;
+    size_t count = 0;
+    for (size_t i = 0; i < pixels; i++)
+        if (metres[i] > 0)
+            queue[count++] = i;
+    for (size_t next = 0; next < count; next++) {
+        const size_t at = queue[next], x = at % width, y = at / width;
+        const size_t around[4] = {at - 1, at + 1, at - width, at + width};
+        const bool inside[4] = {x > 0, x + 1 < width, y > 0, y + 1 < height};
+        for (int k = 0; k < 4; k++) {
+            if (!inside[k] || metres[around[k]] > 0 || around[k] / width < tops[around[k] % width])
+                continue;
+            metres[around[k]] = metres[at];
+            queue[count++] = around[k];
+        }
+    }
+}
+
+bool depth_map_fill(float *metres, uint32_t width, uint32_t height)
+{
+    uint32_t *tops = malloc(width * sizeof *tops);
+    size_t *queue = malloc((size_t)width * height * sizeof *queue);
+    const bool filled = tops && queue && find_tops(metres, width, height, tops);
+    if (filled)
+        spread(metres, width, height, tops, queue);
+    free(tops);
+    free(queue);
+    return filled;
+}

@@ -33,4 +33,9 @@ bool depth_map_is_name(const char *name);
 bool depth_map_read(const char *path, const depth_map_def *def, uint32_t *width, uint32_t *height, float **metres,
                     char *error, size_t error_size);
 
+/* Fills unknown metres of a map with few known ones, as of a laser scanner, or with holes: each gets those of the
+ * nearest known pixel, up to the highest known pixel of its column and its neighbors. Above that is the sky, or what
+ * the scanner does not see; it stays unknown. False: no memory. */
+bool depth_map_fill(float *metres, uint32_t width, uint32_t height);
+
 #endif

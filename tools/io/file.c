@@ -175,6 +175,23 @@ static bool clean_one(int folder, const char *name)
     return removed;
 }
 
+bool file_make_folder(const char *path)
+{
+    char part[4096];
+    if (strlen(path) >= sizeof part) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    strcpy(part, path);
+    for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        if (mkdir(part, 0777) && errno != EEXIST)
+            return false;
+        *slash = '/';
+    }
+    return !mkdir(part, 0777) || errno == EEXIST;
+}
+
 uint32_t file_clean(const char *folder)
 {
     uint32_t count = 0;

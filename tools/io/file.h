@@ -41,6 +41,9 @@ bool file_finish(file_writer *file, char *error, size_t error_size);
 /* Removes what was written so far. */
 void file_abandon(file_writer *file);
 
+/* Makes a folder and those above it, where they are missing. On failure errno says why. */
+bool file_make_folder(const char *path);
+
 /* Removes temporary files of killed programs from a folder. Returns their number. */
 uint32_t file_clean(const char *folder);
 

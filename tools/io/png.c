@@ -40,8 +40,9 @@ bool png_write(const char *path, uint32_t width, uint32_t height, uint32_t chann
                size_t error_size)
 {
     file_writer file;
-    if (!width || !height || width > PNG_MAX_SIDE || height > PNG_MAX_SIDE || (channels != 3 && channels != 4))
-        return refuse(error, error_size, "write", path, "expected 1 to 16384 pixels on each side, RGB or RGBA");
+    if (!width || !height || width > PNG_MAX_SIDE || height > PNG_MAX_SIDE ||
+        (channels != 1 && channels != 3 && channels != 4))
+        return refuse(error, error_size, "write", path, "expected 1 to 16384 pixels a side, grey, RGB or RGBA");
     /* stb has sizes as int and doubles its buffers. */
     if (((uint64_t)width * channels + 1) * height > INT_MAX / 2)
         return refuse(error, error_size, "write", path, "larger than 1 GiB");

@@ -8,7 +8,7 @@
 
 #define PNG_MAX_SIDE 16384 /* pixels; larger pictures are refused, read or written */
 
-/* Writes 3 (RGB) or 4 (RGBA) bytes per pixel, top row first, under a temporary name, and renames. */
+/* Writes 1 (grey), 3 (RGB) or 4 (RGBA) bytes per pixel, top row first, under a temporary name, and renames. */
 bool png_write(const char *path, uint32_t width, uint32_t height, uint32_t channels, const uint8_t *pixels, char *error,
                size_t error_size);
 

@@ -12,6 +12,7 @@
 static const command commands[] = {
     {"render", "render a scene to layered EXR frames", render_run, render_help},
     {"farm", "render a shot by many tasks: on Slurm, or as processes on this machine", farm_run, farm_help},
+    {"dataset", "rain over folders of photographs, with masks and boxes of streaks", dataset_run, dataset_help},
     {"view", "a scene in a window, with every setting on a panel", view_run, view_help},
     {"check", "validate a scene file", check_run, check_help},
     {"info", "list Vulkan devices and why each is or is not usable; what is in files of particles", info_run,

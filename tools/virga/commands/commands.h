@@ -13,6 +13,8 @@ int render_run(int argc, char **argv);
 void render_help(void);
 int farm_run(int argc, char **argv);
 void farm_help(void);
+int dataset_run(int argc, char **argv);
+void dataset_help(void);
 int view_run(int argc, char **argv);
 void view_help(void);
 int check_run(int argc, char **argv);

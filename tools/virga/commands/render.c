@@ -238,29 +238,11 @@ static bool read_ranges(render_job *job)
     return true;
 }
 
-/* Makes a folder and those above it. */
-static bool make_parents(const char *path)
-{
-    char part[4096];
-    if (strlen(path) >= sizeof part) {
-        errno = ENAMETOOLONG;
-        return false;
-    }
-    strcpy(part, path);
-    for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = 0;
-        if (mkdir(part, 0777) && errno != EEXIST)
-            return false;
-        *slash = '/';
-    }
-    return !mkdir(part, 0777) || errno == EEXIST;
-}
-
 /* A folder that can not exist is a wrong command line. A full disk is not. */
 static int make_directory(render_job *job)
 {
     struct stat about = {0};
-    if (!make_parents(job->directory)) {
+    if (!file_make_folder(job->directory)) {
         const int code = errno == ENOSPC || errno == EDQUOT || errno == EIO ? EXIT_FAILED : EXIT_USAGE;
         options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
         return code;

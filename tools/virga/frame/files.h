@@ -26,6 +26,10 @@ void frame_compose(const shot *s, const host_drawn *picture, float *beauty);
 /* Writes the beauty as DIR/picture.%04u.png, .jpg or .tif, with the transfer curve of the plate: picture.c. */
 bool frame_write_picture(const shot *s, const host_drawn *drawn, const char *directory, uint32_t frame,
                          picture_format format, char *error, size_t error_size);
+
+/* The same under any name; `seed` is that of the dither. */
+bool frame_save_picture(const shot *s, const host_drawn *drawn, const char *path, uint64_t seed, picture_format format,
+                        char *error, size_t error_size);
 void frame_picture_path(const char *directory, picture_kind kind, uint32_t frame, char *path, size_t size);
 
 /* Reads the value of --picture, `word` (NULL: not given). `plate` is the format of the plate, NULL without one.

@@ -42,8 +42,8 @@ void frame_picture_path(const char *directory, picture_kind kind, uint32_t frame
     snprintf(path, size, "%s/picture.%04u.%s", directory, frame, picture_ending(kind));
 }
 
-bool frame_write_picture(const shot *s, const host_drawn *drawn, const char *directory, uint32_t frame,
-                         picture_format format, char *error, size_t error_size)
+bool frame_save_picture(const shot *s, const host_drawn *drawn, const char *path, uint64_t seed, picture_format format,
+                        char *error, size_t error_size)
 {
     const size_t pixels = (size_t)drawn->width * drawn->height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty), *samples = malloc(pixels * 3 * sizeof *samples);
@@ -51,14 +51,19 @@ bool frame_write_picture(const shot *s, const host_drawn *drawn, const char *dir
     if (!written)
         host_fail(error, error_size, "no memory for a frame of %u x %u", drawn->width, drawn->height);
     if (written) {
-        const uint64_t seed = (uint64_t)tool_seed(s->scene) << 32 | frame;
-        char path[4096];
         frame_compose(s, drawn, beauty);
         picture_from_light(beauty, pixels, s->scene->footage.curve, format, seed, samples);
-        frame_picture_path(directory, format.kind, frame, path, sizeof path);
         written = picture_write(path, format, drawn->width, drawn->height, samples, error, error_size);
     }
     free(beauty);
     free(samples);
     return written;
+}
+
+bool frame_write_picture(const shot *s, const host_drawn *drawn, const char *directory, uint32_t frame,
+                         picture_format format, char *error, size_t error_size)
+{
+    char path[4096];
+    frame_picture_path(directory, format.kind, frame, path, sizeof path);
+    return frame_save_picture(s, drawn, path, (uint64_t)tool_seed(s->scene) << 32 | frame, format, error, error_size);
 }

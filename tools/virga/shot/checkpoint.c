@@ -205,6 +205,14 @@ static bool write_state(shot *s, double time_s, bool *torn, char *error, size_t 
     return host_submit(&s->device, error, error_size) && host_wait(&s->device, error, error_size) && loaded;
 }
 
+static void go_on_from(shot *s, uint32_t frame, double time_s)
+{
+    s->frame_index = frame;
+    s->preroll = 0;
+    s->began = true;
+    s->camera_time_s = time_s;
+}
+
 bool checkpoint_load(shot *s, const char *directory, uint32_t frame, bool *torn, char *error, size_t error_size)
 {
     char path[4096];
@@ -217,9 +225,24 @@ bool checkpoint_load(shot *s, const char *directory, uint32_t frame, bool *torn,
         !packed_read(path, sizeof(checkpoint_head), s->state.mapped, s->state.size, error, error_size) ||
         !shot_apply_settings(s, time_s, error, error_size) || !write_state(s, time_s, torn, error, error_size))
         return false;
-    s->frame_index = frame;
-    s->preroll = 0;
-    s->began = true;
-    s->camera_time_s = time_s;
+    go_on_from(s, frame, time_s);
+    return true;
+}
+
+/* ---- in memory */
+
+bool checkpoint_keep(shot *s, char *error, size_t error_size)
+{
+    s->kept_frame = s->frame_index;
+    return open_buffer(s, error, error_size) && read_state(s, error, error_size);
+}
+
+bool checkpoint_return(shot *s, char *error, size_t error_size)
+{
+    const double time_s = shot_time(s, s->kept_frame);
+    bool torn = false;
+    if (!shot_apply_settings(s, time_s, error, error_size) || !write_state(s, time_s, &torn, error, error_size))
+        return false;
+    go_on_from(s, s->kept_frame, time_s);
     return true;
 }

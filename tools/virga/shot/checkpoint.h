@@ -18,4 +18,10 @@ bool checkpoint_find(const shot *s, const char *directory, uint32_t frame, uint3
  * a part of the file was refused after others had been loaded, and the shot can not go on. */
 bool checkpoint_load(shot *s, const char *directory, uint32_t frame, bool *torn, char *error, size_t error_size);
 
+/* The same in memory: keeps the state that the shot is in, until the shot is closed or a checkpoint is saved or loaded,
+ * and goes back to it as often as it is asked for. The settings that the simulation depends on must be those of the
+ * time when it was kept. Both wait for the device. */
+bool checkpoint_keep(shot *s, char *error, size_t error_size);
+bool checkpoint_return(shot *s, char *error, size_t error_size);
+
 #endif

@@ -11,6 +11,9 @@
 bool shot_open_scene(shot *s, char *error, size_t error_size);
 void shot_close_scene(shot *s);
 
+/* Buffers for the plate, of the size in s->options. */
+bool shot_open_plate_buffers(shot *s, char *error, size_t error_size);
+
 /* Sums of sub-frames and the picture that they become, of the size in s->options. */
 bool shot_create_picture(shot *s, char *error, size_t error_size);
 

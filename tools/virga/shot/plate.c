@@ -79,8 +79,8 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
                  .depths = depths_of(def->depths, scene_first),
                  .loaded = UINT32_MAX};
     p->has_depth = def->depths || def->depth_m > 0 || def->keeps_depth;
-    if (!plate_files_open(&p->pictures, frames, error, error_size) ||
-        (def->depths && !plate_files_open(&p->depths, frames, error, error_size)))
+    if (!def->stills && (!plate_files_open(&p->pictures, frames, error, error_size) ||
+                         (def->depths && !plate_files_open(&p->depths, frames, error, error_size))))
         return false;
     return allocate(p) || host_fail(error, error_size, "no memory for a plate of %u x %u", def->width, def->height);
 }
@@ -95,7 +95,32 @@ void plate_close(plate *p)
         free(p->rgba);
     if (p->depth != p->distance)
         free(p->depth);
+    free(p->given.rgb);
     *p = (plate){0};
+}
+
+bool plate_replace(plate *p, const plate_def *def, const picture *given, char *error, size_t error_size)
+{
+    plate_def next = p->def;
+    next.pictures = def->pictures;
+    next.depths = def->depths;
+    next.depth = def->depth;
+    next.fills_depth = def->fills_depth;
+    next.width = def->width;
+    next.height = def->height;
+    if (next.width != p->def.width || next.height != p->def.height) {
+        plate_close(p);
+        const bool opened = plate_open(p, &next, 0, (const uint32_t[]){0, 0}, error, error_size);
+        p->given = *given;
+        return opened;
+    }
+    free(p->given.rgb);
+    p->given = *given;
+    p->def = next;
+    p->pictures.pattern = next.pictures;
+    p->depths.pattern = next.depths;
+    p->loaded = UINT32_MAX;
+    return true;
 }
 
 bool plate_has(const plate *p, uint32_t frame)
@@ -180,6 +205,10 @@ static bool load_depth(plate *p, uint32_t frame, char *error, size_t error_size)
         return false;
     if (p->def.depths && !depth_map_read(path, &p->def.depth, &width, &height, &metres, reason, sizeof reason))
         return host_fail(error, error_size, "--depth: %s", reason);
+    if (p->def.fills_depth && !depth_map_fill(metres, width, height)) {
+        free(metres);
+        return host_fail(error, error_size, "no memory for a depth of %u x %u", width, height);
+    }
     for (uint32_t y = 0; y < p->def.height; y++)
         for (uint32_t x = 0; x < p->def.width; x++) {
             const size_t row = (2 * (size_t)y + 1) * height / (2 * (size_t)p->def.height);
@@ -195,11 +224,16 @@ bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
 {
     char path[4096];
     picture now;
-    if (p->loaded == frame)
+    if (p->loaded == frame || (p->def.stills && p->loaded != UINT32_MAX))
         return true;
     p->loaded = UINT32_MAX;
-    if (!read_picture(&p->pictures, frame, path, &now, error, error_size))
+    if (p->given.rgb) {
+        now = p->given;
+        p->given.rgb = NULL;
+        snprintf(path, sizeof path, "%s", p->def.pictures);
+    } else if (!read_picture(&p->pictures, frame, path, &now, error, error_size)) {
         return false;
+    }
     picture_to_light(now.rgb, (size_t)now.width * now.height * 3, p->def.curve, now.format);
     const bool loaded = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size) &&
                         (!p->has_depth || load_depth(p, frame, error, error_size));

@@ -10,7 +10,9 @@ typedef struct plate_def {
     const char *pictures, *depths; /* patterns, see plate_files; depths NULL: none */
     transfer_curve curve;
     depth_map_def depth;
+    bool stills;            /* pictures and depths are names of files, the same for all frames, not patterns */
     bool keeps_depth;       /* it has a depth even where nothing is known of it: the caller fills it */
+    bool fills_depth;       /* (depths) see depth_map_fill */
     double depth_m;         /* where a depth is not known; 0: infinity */
     double near_m, far_m;   /* planes of the camera */
     uint32_t width, height; /* of the shot's pictures */
@@ -25,6 +27,7 @@ typedef struct plate {
     float *picture;      /* linear light: width x height, rows from the top, alpha 1 */
     float *distance;     /* (has_depth) of its pixels, as the camera's depth buffer: 0 near to 1 far */
     float *rgba, *depth; /* the same as the pinhole of `distortion` sees it; without it these are the same memory */
+    picture given;       /* of plate_replace; rgb NULL: the file is to be read */
     bool warned;         /* that pictures are resampled */
 } plate;
 
@@ -36,6 +39,11 @@ bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames
 bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint32_t frames[2], char *error,
                 size_t error_size);
 void plate_close(plate *p);
+
+/* Takes another picture for all frames, with its depth (see plate_def) and size. What def has of planes and distortion
+ * stays. `given` is what is in the file; its memory is the plate's then. One line in `error`: no memory; the plate can
+ * only be closed then. */
+bool plate_replace(plate *p, const plate_def *def, const picture *given, char *error, size_t error_size);
 
 /* Metres along the camera's axis as its depth buffer has them. */
 float plate_buffer_depth(const plate *p, double metres);

@@ -41,7 +41,8 @@ static bool open_plate(shot *s, char *error, size_t error_size)
                   .baseline_m = footage->disparity_base_m,
                   .focal_px = footage->disparity_focal_px},
         .depth_m = footage->depth_m,
-        .keeps_depth = footage->ground == SCENE_FOOTAGE_GROUND_PLANE,
+        .stills = s->options.stills,
+        .keeps_depth = footage->ground == SCENE_FOOTAGE_GROUND_PLANE || s->options.stills,
         .near_m = s->scene->camera.near_m,
         .far_m = s->scene->camera.far_m,
         .width = s->options.width,
@@ -65,7 +66,7 @@ static bool open_plate(shot *s, char *error, size_t error_size)
 }
 
 /* Where the pictures of a plate and their depth go on their way to the device. */
-static bool open_plate_buffers(shot *s, char *error, size_t error_size)
+bool shot_open_plate_buffers(shot *s, char *error, size_t error_size)
 {
     const VkDeviceSize size = (VkDeviceSize)s->options.width * s->options.height * sizeof(float);
     if (!s->plate || !s->options.draw)
@@ -166,7 +167,7 @@ bool shot_create_picture(shot *s, char *error, size_t error_size)
 static bool open_all(shot *s, char *error, size_t error_size)
 {
     return shot_load_camera(s, error, error_size) && check_input(s, error, error_size) &&
-           shot_open_device(s, error, error_size) && open_plate_buffers(s, error, error_size) &&
+           shot_open_device(s, error, error_size) && shot_open_plate_buffers(s, error, error_size) &&
            (!s->options.draw || shot_create_picture(s, error, error_size)) && shot_open_scene(s, error, error_size);
 }
 
