@@ -24,6 +24,17 @@ static void fill_range(const float range[2], float out[2])
     out[1] = 1 / fmaxf(range[1] - range[0], 1e-6f);
 }
 
+/* Without walls, ones that are too far to matter. */
+static void fill_walls(const virga_water_settings *settings, virga_water_step_gpu *out)
+{
+    const float *low = settings->foam_walls_low_m, *high = settings->foam_walls_high_m;
+    const bool has_walls = memcmp(low, high, sizeof settings->foam_walls_low_m) != 0;
+    for (int axis = 0; axis < 3; axis++) {
+        out->foam_low[axis] = has_walls ? fminf(low[axis], high[axis]) : -1e9f;
+        out->foam_high[axis] = has_walls ? fmaxf(low[axis], high[axis]) : 1e9f;
+    }
+}
+
 void water_foam_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out)
 {
     const virga_water_settings *settings = &water->settings;
@@ -35,6 +46,7 @@ void water_foam_fill(virga_water *water, const virga_water_step_info *info, virg
     fill_range(energies, out->foam_energy);
     fill_range(settings->foam_air_m_s, out->foam_air);
     fill_range(settings->foam_crest, out->foam_crest);
+    fill_walls(settings, out);
     out->foam_rates[0] = settings->foam_air_hz;
     out->foam_rates[1] = settings->foam_crest_hz;
     memcpy(out->foam_life_s, settings->foam_life_s, sizeof out->foam_life_s);

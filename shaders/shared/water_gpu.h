@@ -93,6 +93,8 @@ struct virga_water_step_gpu {
     float foam_inv_weights; /* 1 / sum of the weights 1 - r / h of neighbours in water at rest */
     float foam_drag;        /* 1/s, rate at which a bubble takes on the velocity of the water */
     float foam_buoyancy;    /* m/s^2, of bubbles */
+    float foam_low[3];      /* m, walls */
+    float foam_high[3];
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -141,7 +143,7 @@ struct virga_water_piece_gpu {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 236);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 260);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_water_state_gpu, 212);
 #undef uint

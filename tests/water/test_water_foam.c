@@ -191,6 +191,51 @@ static void potentials_are_those_of_the_paper(void **state)
     tear_down();
 }
 
+/* The sum of equation 2 over the space behind a wall, where particles are at rest, with the water at speed 1 into it:
+ * (1 + cos) W, over rings around the normal. */
+static double wall_air(double z)
+{
+    enum { PLANES = 200, RINGS = 200 };
+    const double h = (double)f.settings.kernel_spacings * D, each = (h - z) / PLANES;
+    double sum = 0;
+    for (int i = 0; i < PLANES * RINGS && z < h; i++) {
+        const double s = z + (i % PLANES + 0.5) * each, width = sqrt(h * h - s * s) / RINGS;
+        const double x = (i / PLANES + 0.5) * width, r = sqrt(s * s + x * x);
+        sum += 2 * M_PI * x * width * each * (1 + s / r) * (1 - r / h);
+    }
+    return sum / (D * D * D) / rest_weight();
+}
+
+/* At both walls of each axis; water that leaves a wall or slides along it traps nothing there. */
+static void water_that_meets_a_wall_traps_air(void **state)
+{
+    (void)state;
+    const double side = 6 * D;
+    double worst = 0, most = 0;
+    set_up(1024);
+    random_cloud(200, side, 2);
+    for (int axis = 0; axis < 3; axis++) {
+        f.settings.foam_walls_low_m[axis] = 0;
+        f.settings.foam_walls_high_m[axis] = (float)side;
+    }
+    step(STEP_S);
+    for (uint32_t s = 0; s < f.stats.in_grid; s++) {
+        const uint32_t i = f.sorted_indices[s];
+        potentials p;
+        double walls = 0;
+        find_air(i, &p);
+        for (int axis = 0; axis < 3; axis++) {
+            const double v = (double)f.particles[i].velocity[axis], at = (double)f.particles[i].position[axis];
+            walls += fabs(v) * wall_air(v < 0 ? at : side - at);
+        }
+        worst = fmax(worst, fabs((double)normals[4 * s + 3] - p.air - walls));
+        most = fmax(most, walls);
+    }
+    printf("air within %.1e m/s, up to %.2f of it by walls\n", worst, most);
+    REQUIRE(worst < 2e-3 && most > 1);
+    tear_down();
+}
+
 /* ---- number and life times */
 
 /* All potentials are 1 where there is any motion: each particle makes 80 in a second. */
@@ -466,6 +511,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(potentials_are_those_of_the_paper),
+        cmocka_unit_test(water_that_meets_a_wall_traps_air),
         cmocka_unit_test(the_number_of_foam_is_a_rate_times_time),
         cmocka_unit_test(foam_dissolves_at_the_end_of_its_life),
         cmocka_unit_test(a_full_pool_makes_no_more_and_says_so),

@@ -281,6 +281,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.smoothing = (float)from->smoothing;
     settings.stretch = (float)from->stretch;
     apply_foam(from, &settings);
+    water_foam_walls(s->scene, &settings);
     for (int c = 0; c < 3; c++) {
         settings.absorption_1_m[c] = (float)from->absorption_1_m[c];
         settings.scattering_1_m[c] = (float)from->scattering_1_m[c];

@@ -215,6 +215,11 @@ typedef struct virga_water_settings {
      * Default 0.25, 0.8. */
     float foam_air_m_s[2];
 
+    /* [-10000; 10000] two opposite corners of a box around the water (m), in the axes and from the origin of the
+     * particles. Its walls trap air as particles at rest behind them would: with the speed of the water into the wall.
+     * Water that slides along a wall makes no foam there. The same corner twice (default): no walls. */
+    float foam_walls_low_m[3], foam_walls_high_m[3];
+
     /* [0; 10] range of a crest's curvature: the mean of 1 - cos of the angles between the normals of a particle and of
      * its neighbours, where the surface is convex and moves along its normal. Default 0.25, 0.6. */
     float foam_crest[2];

@@ -5,6 +5,14 @@
 // that move away from each other, and largest for those that meet head-on. Here it is divided by the sum of W in the
 // middle of water at rest: it is a speed, which does not depend on how many neighbours a kernel has.
 //
+// Walls count as particles that are at rest behind them, spread evenly (Ihmsen et al. count those of their boundaries).
+// Along a wall the water slides, so v_ij is the speed v into the wall alone, and the sum over the space behind it has a
+// closed form. With u = z / h for a particle at the distance z, divided as the rest,
+//
+//     v (A + B),    A = 1/2 - u + u^3 - u^4 / 2,    B = 1/4 - 3/2 u^2 + 2 u^3 - 3/4 u^4,
+//
+// where A is the integral of W over that space and B that of W times the cosine to the wall's normal.
+//
 // The normal is that of the density, and only where its slope is steep: at the surface.
 // One invocation per sorted particle. Reads: sorted, sorted_velocities. Writes: normals.
 #version 460
@@ -35,6 +43,21 @@ void visit(uint i, vec4 particle)
     }
 }
 
+float wall_air(float z, float into)
+{
+    const float u = clamp(z / frame.cell_m, 0.0, 1.0), u2 = u * u;
+    return max(into, 0.0) * (0.75 - u - 1.5 * u2 + 3.0 * u2 * u - 1.25 * u2 * u2);
+}
+
+float walls_air()
+{
+    float sum = 0.0;
+    for (uint axis = 0u; axis < 3u; axis++)
+        sum += wall_air(here[axis] - frame.foam_low[axis], -velocity[axis]) +
+               wall_air(frame.foam_high[axis] - here[axis], velocity[axis]);
+    return sum;
+}
+
 // Of the slope of the density, times h. In the outermost layer of a flat surface with h = 2 spacings it is 0.95, in the
 // one below it 0.045.
 #define STEEP 0.3
@@ -52,5 +75,6 @@ void main()
     gather(cell_at(here));
     const vec3 slope = frame.kernel_gradient * gradient;
     const float steep = length(slope);
-    normals[own] = vec4(steep * frame.cell_m > STEEP ? -slope / steep : vec3(0.0), air * frame.foam_inv_weights);
+    normals[own] = vec4(steep * frame.cell_m > STEEP ? -slope / steep : vec3(0.0),
+                        air * frame.foam_inv_weights + walls_air());
 }

@@ -6,6 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Open sides are no walls. */
+void water_foam_walls(const scene_file *scene, virga_water_settings *settings)
+{
+    const scene_solver *from = &scene_water_of(scene)->solver;
+    const bool open = from->exchange.max_particles && from->exchange.open_sides;
+    if (!water_is_solved(scene))
+        return;
+    for (int axis = 0; axis < 3; axis++) {
+        settings->foam_walls_low_m[axis] = open && axis != 1 ? -10000 : (float)from->walls.low_m[axis];
+        settings->foam_walls_high_m[axis] = open ? 10000 : (float)from->walls.high_m[axis];
+    }
+}
+
 /* ---- create and destroy */
 
 static bool set_fluid(shot *s, const water_state *state, char *error, size_t error_size)

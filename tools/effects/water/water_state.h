@@ -91,6 +91,9 @@ double water_box_particles(const scene_solver *from, const scene_solver_box *box
 /* What the scene says of the simulation. */
 void water_describe_solver(const scene_file *scene, water_source *source);
 
+/* Lets its walls make foam. */
+void water_foam_walls(const scene_file *scene, virga_water_settings *settings);
+
 bool water_open_solver(shot *s, water_state *state, char *error, size_t error_size);
 void water_close_solver(shot *s, water_state *state);
 
