@@ -102,7 +102,7 @@ static void samples_come_back_through_light(void **state)
             picture_to_light(rgb, COUNT * 3, curve, format);
             for (uint32_t i = 0; i < COUNT * 3; i++)
                 rgba[i / 3 * 4 + i % 3] = rgb[i];
-            picture_from_light(rgba, COUNT, curve, format, 7, words);
+            picture_from_light(rgba, NULL, COUNT, curve, format, 7, words);
             for (uint32_t i = 0; i < COUNT * 3; i++)
                 assert_int_equal(bits == 8 ? ((uint8_t *)words)[i] : words[i], i / 3 % (largest + 1));
         }
@@ -121,9 +121,9 @@ static void dither_keeps_the_mean(void **state)
     uint8_t *first = malloc(COUNT * 3), *again = malloc(COUNT * 3), *other = malloc(COUNT * 3);
     for (int i = 0; i < COUNT * 4; i++)
         rgba[i] = (float)transfer_to_light(TRANSFER_SRGB, 100.3 / 255);
-    picture_from_light(rgba, COUNT, TRANSFER_AUTO, format, 1, first);
-    picture_from_light(rgba, COUNT, TRANSFER_AUTO, format, 1, again);
-    picture_from_light(rgba, COUNT, TRANSFER_AUTO, format, 2, other);
+    picture_from_light(rgba, NULL, COUNT, TRANSFER_AUTO, format, 1, first);
+    picture_from_light(rgba, NULL, COUNT, TRANSFER_AUTO, format, 1, again);
+    picture_from_light(rgba, NULL, COUNT, TRANSFER_AUTO, format, 2, other);
     double sum = 0;
     for (int i = 0; i < COUNT * 3; i++)
         sum += first[i];
@@ -141,7 +141,7 @@ static void light_out_of_range_is_cut(void **state)
     (void)state;
     const float rgba[8] = {-1, 2, NAN, 1, 65504, 0, 1, 1};
     uint8_t bytes[6];
-    picture_from_light(rgba, 2, TRANSFER_SRGB, (picture_format){PICTURE_PNG, 8}, 1, bytes);
+    picture_from_light(rgba, NULL, 2, TRANSFER_SRGB, (picture_format){PICTURE_PNG, 8}, 1, bytes);
     const uint8_t expected[6] = {0, 255, 0, 255, 0, 255};
     assert_memory_equal(bytes, expected, 6);
 }

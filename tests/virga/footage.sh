@@ -65,6 +65,30 @@ unchanged a.tif tif 0
 unchanged a.jpg jpg 0.03
 unchanged a.jpg png 0 --picture png
 
+# ---- a color space of an OpenColorIO config, in place of the curve: primaries that are not ours, and a power
+cat >"$work/config.ocio" <<'YAML'
+ocio_profile_version: 2
+roles: {default: lin, scene_linear: lin}
+displays: {d: [!<View> {name: v, colorspace: wide}]}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+  - !<ColorSpace>
+    name: wide
+    to_scene_reference: !<GroupTransform>
+      children:
+        - !<ExponentTransform> {value: [2, 2, 2, 1]}
+        - !<MatrixTransform> {matrix: [0.5, 0.25, 0.25, 0, 0.125, 0.75, 0.125, 0, 0, 0.25, 0.75, 0, 0, 0, 0, 1]}
+YAML
+space=(--set "footage.ocio_config=$work/config.ocio" --set footage.color_space=wide)
+refuses 'footage.color_space: expected ' --plate "$work/a.png" --set footage.color_space=wide
+if ! grep -q 'built without OpenColorIO' "$work/log"; then
+    unchanged a.png png 0 "${space[@]}"
+    unchanged a16.png png 0.0003 "${space[@]}"
+    refuses "expected a color space of the config, got 'log'" --plate "$work/a.png" \
+        --set "footage.ocio_config=$work/config.ocio" --set footage.color_space=log
+    refuses 'footage.curve: expected auto' --plate "$work/a.png" "${space[@]}" --set footage.curve=srgb
+fi
+
 # ---- rain is added as light
 
 render rain --plate "$work/a.png" --size plate

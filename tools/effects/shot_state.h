@@ -82,6 +82,7 @@ typedef struct shot {
     host_drawn pinhole;
 
     struct plate *plate;               /* NULL: none */
+    struct color_space *color_space;   /* of the plate, in place of its curve; NULL: the curve */
     struct plate_ground *plate_ground; /* NULL: it has none */
     host_buffer plate_buffer;          /* uploads its pixels */
     host_buffer plate_depth_buffer;    /* uploads its depth; none without depth */

@@ -141,8 +141,8 @@ static uint32_t round_code(double code, uint32_t largest, bool dither, uint64_t 
     return (uint32_t)floor(code + noise(seed, place));
 }
 
-void picture_from_light(const float *rgba, size_t pixels, transfer_curve curve, picture_format format, uint64_t seed,
-                        void *samples)
+void picture_from_light(const float *rgba, const uint8_t *changed, size_t pixels, transfer_curve curve,
+                        picture_format format, uint64_t seed, void *samples)
 {
     const transfer_curve used = picture_curve(curve, format);
     const uint32_t largest = format.bits == 32 ? 1 : (1u << format.bits) - 1;
@@ -152,7 +152,7 @@ void picture_from_light(const float *rgba, size_t pixels, transfer_curve curve, 
     for (size_t i = 0; i < pixels * 3; i++) {
         const double code = transfer_to_code(used, (double)rgba[i / 3 * 4 + i % 3]);
         if (format.bits == 8)
-            bytes[i] = (uint8_t)round_code(code * largest, largest, true, seed, i);
+            bytes[i] = (uint8_t)round_code(code * largest, largest, !changed || changed[i / 3], seed, i);
         else if (format.bits == 16)
             words[i] = (uint16_t)round_code(code * largest, largest, false, seed, i);
         else

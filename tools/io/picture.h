@@ -53,9 +53,10 @@ void picture_to_light(float *values, size_t count, transfer_curve curve, picture
 /* Linear light (RGBA; alpha is left out) to samples of a format: 3 a pixel, uint8_t, uint16_t or float by its bits.
  * Whole numbers are clamped. With 8 bits, noise of one code's width is added before rounding (dither), so that a mean
  * over pixels is that of the light. It depends on `seed` and the place alone. A value within 1/256 of a code gets that
- * code, so that what nothing was added to stays as it was. */
-void picture_from_light(const float *rgba, size_t pixels, transfer_curve curve, picture_format format, uint64_t seed,
-                        void *samples);
+ * code, so that what nothing was added to stays as it was; so does a pixel for which `changed` is 0, also where it was
+ * not undone and done again as exactly. `changed` NULL: all may be. */
+void picture_from_light(const float *rgba, const uint8_t *changed, size_t pixels, transfer_curve curve,
+                        picture_format format, uint64_t seed, void *samples);
 
 /* Writes 3 samples a pixel, under a temporary name, and renames. JPEG has quality 95 without subsampling. Not for
  * EXR. The bytes depend on the samples alone. */

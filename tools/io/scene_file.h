@@ -143,6 +143,8 @@ typedef enum scene_footage_ground {
 /* What the pictures of a plate mean, see --plate. */
 typedef struct scene_footage {
     uint32_t curve;            /* transfer_curve */
+    char *ocio_config;         /* file; NULL: the one that the environment variable OCIO names */
+    char *color_space;         /* of the config, in place of the curve; NULL: the curve */
     uint32_t light;            /* scene_footage_light */
     uint32_t ground;           /* scene_footage_ground */
     double depth_m;            /* where --depth gives none; 0: nothing is there, as in the sky */

@@ -24,6 +24,9 @@ static const scene_keyword grounds[] = {{"none", SCENE_FOOTAGE_NO_GROUND},
 static const scene_row footage_rows[] = {
     CHOICE(scene_footage, curve, curves, "auto", RESTARTS,
            "transfer curve of the plate, undone before rain and done again after; auto: srgb, linear for floats"),
+    OPTIONAL_TEXT(scene_footage, color_space, 200, RESTARTS,
+                  "in place of the curve: a color space of an OpenColorIO config, as the plate has it"),
+    FILE_NAME(scene_footage, ocio_config, OPTIONAL, "that config; without it the one that OCIO names (environment)"),
     CHOICE(scene_footage, light, lights, "plate", RESTARTS,
            "what drops refract: plate (its first picture, mirrored all around, without environment.file) or scene"),
     NUMBER(scene_footage, depth_m, 0, MAX_METERS, "0", RESTARTS,
@@ -45,6 +48,12 @@ const scene_group scene_footage_group = SCENE_GROUP(scene_footage, footage_rows)
 bool scene_footage_check(const scene_file *scene, char *error, size_t error_size)
 {
     const scene_footage *footage = &scene->footage;
+    if (footage->color_space && footage->curve != TRANSFER_AUTO)
+        return scene_file_refuse(scene, "footage.curve", error, error_size,
+                                 "expected auto, as footage.color_space is given");
+    if (footage->ocio_config && !footage->color_space)
+        return scene_file_refuse(scene, "footage.ocio_config", error, error_size,
+                                 "expected footage.color_space with it");
     if (footage->depth_kind != DEPTH_MAP_DISPARITY)
         return true;
     if (!(footage->disparity_base_m > 0))

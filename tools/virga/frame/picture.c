@@ -1,4 +1,5 @@
 /* picture.c - the beauty of a frame in the format and with the transfer curve of the plate that it was made over. */
+#include "color_space.h"
 #include "effect.h"
 #include "frame/files.h"
 #include "options.h"
@@ -47,16 +48,24 @@ bool frame_save_picture(const shot *s, const host_drawn *drawn, const char *path
 {
     const size_t pixels = (size_t)drawn->width * drawn->height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty), *samples = malloc(pixels * 3 * sizeof *samples);
-    bool written = beauty && samples;
+    uint8_t *changed = malloc(pixels);
+    bool written = beauty && samples && changed;
     if (!written)
         host_fail(error, error_size, "no memory for a frame of %u x %u", drawn->width, drawn->height);
     if (written) {
         frame_compose(s, drawn, beauty);
-        picture_from_light(beauty, pixels, s->scene->footage.curve, format, seed, samples);
+        for (size_t i = 0; i < pixels; i++)
+            changed[i] = memcmp(beauty + 4 * i, drawn->color + 4 * i, 3 * sizeof *beauty) != 0;
+        if (s->color_space)
+            color_space_to_code(s->color_space, beauty, pixels, 4);
+        /* Wet ground and a lens change the plate itself. */
+        picture_from_light(beauty, s->plate_ground || s->lens ? NULL : changed, pixels,
+                           s->color_space ? TRANSFER_LINEAR : s->scene->footage.curve, format, seed, samples);
         written = picture_write(path, format, drawn->width, drawn->height, samples, error, error_size);
     }
     free(beauty);
     free(samples);
+    free(changed);
     return written;
 }
 

@@ -234,7 +234,11 @@ bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
     } else if (!read_picture(&p->pictures, frame, path, &now, error, error_size)) {
         return false;
     }
-    picture_to_light(now.rgb, (size_t)now.width * now.height * 3, p->def.curve, now.format);
+    const size_t pixels = (size_t)now.width * now.height;
+    if (p->def.color_space)
+        color_space_to_light(p->def.color_space, now.rgb, pixels, 3);
+    else
+        picture_to_light(now.rgb, pixels * 3, p->def.curve, now.format);
     const bool loaded = copy_picture(p, path, now.rgb, now.width, now.height, error, error_size) &&
                         (!p->has_depth || load_depth(p, frame, error, error_size));
     free(now.rgb);

@@ -2,6 +2,7 @@
 #ifndef VIRGA_TOOL_PLATE_H
 #define VIRGA_TOOL_PLATE_H
 
+#include "color_space.h"
 #include "depth_map.h"
 #include "picture.h"
 #include "shot/plate_files.h"
@@ -9,6 +10,7 @@
 typedef struct plate_def {
     const char *pictures, *depths; /* patterns, see plate_files; depths NULL: none */
     transfer_curve curve;
+    const color_space *color_space; /* in place of the curve; NULL: none */
     depth_map_def depth;
     bool stills;            /* pictures and depths are names of files, the same for all frames, not patterns */
     bool keeps_depth;       /* it has a depth even where nothing is known of it: the caller fills it */

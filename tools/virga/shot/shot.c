@@ -23,6 +23,15 @@ bool shot_check_scene(const scene_file *scene, char *error, size_t error_size)
     return true;
 }
 
+static bool open_color_space(shot *s, char *error, size_t error_size)
+{
+    const scene_footage *footage = &s->scene->footage;
+    char reason[600];
+    return !footage->color_space ||
+           color_space_open(&s->color_space, footage->ocio_config, footage->color_space, reason, sizeof reason) ||
+           scene_file_refuse(s->scene, "footage.color_space", error, error_size, "%s", reason);
+}
+
 /* The first picture is read at once: most of what can be wrong with one is wrong with all. */
 static bool open_plate(shot *s, char *error, size_t error_size)
 {
@@ -31,11 +40,14 @@ static bool open_plate(shot *s, char *error, size_t error_size)
     s->plate = calloc(1, sizeof *s->plate);
     if (!s->plate)
         return host_fail(error, error_size, "no memory for a plate");
+    if (!open_color_space(s, error, error_size))
+        return false;
     const scene_footage *footage = &s->scene->footage;
     plate_def def = {
         .pictures = s->options.plate,
         .depths = s->options.depth,
         .curve = footage->curve,
+        .color_space = s->color_space,
         .depth = {.kind = footage->depth_kind,
                   .scale = footage->depth_scale,
                   .baseline_m = footage->disparity_base_m,
@@ -207,6 +219,7 @@ void shot_close(shot *s)
     if (s->plate)
         plate_close(s->plate);
     free(s->plate);
+    color_space_close(&s->color_space);
     if (s->plate_ground)
         plate_ground_close(s->plate_ground);
     free(s->plate_ground);
