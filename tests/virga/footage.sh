@@ -20,7 +20,7 @@ render() {
 refuses() {
     local expected=$1
     shift
-    timeout 60 "$virga" render "$work/rain.yaml" -o "$work/refused" --frames 1 --device "$device" "$@" \
+    timeout 60 "$virga" render "$work/rain.yaml" -o "$work/refused" --device "$device" "$@" \
         >"$work/log" 2>&1
     local code=$?
     [ $code -eq 2 ] || fail "exit code $code, expected 2: $*"
@@ -114,6 +114,19 @@ iinfo "$work/folder/picture.0002.tif" | grep -q '64 x   64, 3 channel, uint16 ti
 rm "$work/folder/picture.0002.tif"
 frames=1-2 render folder --plate "$work/folder" --picture tif16 --resume
 [ -s "$work/folder/picture.0002.tif" ] || fail "--resume leaves out a missing picture"
+
+# ---- a video: frame 2 of the scene is its second picture
+cp "$work/a.png" "$work/v1.png"
+oiiotool "$work/a.png" --flop -o "$work/v2.png"
+if command -v ffmpeg >/dev/null &&
+    ffmpeg -v error -i "$work/v%d.png" -c:v ffv1 -pix_fmt bgr0 "$work/v.mkv" </dev/null; then
+    frames=2 render video --plate "$work/v.mkv" --size plate --set rain.rate_mm_h=0
+    if ! grep -q 'built without FFmpeg' "$work/log"; then
+        idiff -q -fail 0 "$work/v2.png" "$work/video/picture.0002.png" >"$work/log" 2>&1 ||
+            { cat "$work/log"; fail "frame 2 of a video"; }
+        refuses "--plate: 2 frames in $work/v.mkv, none for frame 3" --plate "$work/v.mkv" --frames 3
+    fi
+fi
 
 # ---- what is wrong
 

@@ -45,8 +45,9 @@ static const option_row rows[] = {
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is installed, preview.mp4", false},
     {"--plate", 0, "PATTERN",
      "footage that replaces the drawn scene: EXR, PNG, JPEG or TIFF pictures numbered by frame, as plate.%04d.exr, a "
-     "folder with one picture per frame of the scene, sorted by name, or one picture for all frames. Any size. "
-     "footage.curve of the scene is their transfer curve",
+     "folder with one picture per frame of the scene, sorted by name, one picture for all frames, or a video (MOV, "
+     "MP4, "
+     "MKV, AVI, MXF, WebM). Any size. footage.curve of the scene is their transfer curve",
      false},
     {"--depth", 0, "PATTERN",
      "depth of the plate, so that rain falls before and behind what it shows: EXR (channel Z), PNG of 16 bits, TIFF or "

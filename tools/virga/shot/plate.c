@@ -34,12 +34,28 @@ static plate_files depths_of(const char *pattern, uint32_t first)
                          .first = first};
 }
 
-static bool read_picture(const plate_files *files, uint32_t frame, char path[4096], picture *p, char *error,
-                         size_t error_size)
+/* Finds out what the pattern is, and whether there is a picture for each of the frames. A video's first frame is that
+ * of the scene. */
+static bool open_pictures(plate_files *files, video **movie, const uint32_t frames[2], char *error, size_t error_size)
+{
+    char reason[1024];
+    if (!video_is_name(files->pattern) || strchr(files->pattern, '%'))
+        return plate_files_open(files, frames, error, error_size);
+    if (!video_open(movie, files->pattern, reason, sizeof reason))
+        return host_fail(error, error_size, "--plate: %s", reason);
+    const uint32_t count = video_count(*movie), wrong = frames[0] < files->first ? frames[0] : frames[1];
+    return (frames[0] >= files->first && frames[1] - files->first < count) ||
+           host_fail(error, error_size, "--plate: %u frames in %s, none for frame %u", count, files->pattern, wrong);
+}
+
+static bool read_picture(const plate_files *files, video *movie, uint32_t frame, char path[4096], picture *p,
+                         char *error, size_t error_size)
 {
     char reason[1024];
     return plate_files_name(files, frame, path, error, error_size) &&
-           (picture_read(path, p, reason, sizeof reason) || host_fail(error, error_size, "--plate: %s", reason));
+           ((movie ? video_read(movie, frame - files->first, p, reason, sizeof reason)
+                   : picture_read(path, p, reason, sizeof reason)) ||
+            host_fail(error, error_size, "--plate: %s", reason));
 }
 
 bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames[2], picture_format *format,
@@ -48,12 +64,14 @@ bool plate_peek(const char *pattern, uint32_t scene_first, const uint32_t frames
     plate_files files = pictures_of(pattern, scene_first);
     char path[4096];
     picture first = {.rgb = NULL};
-    const bool read = plate_files_open(&files, frames, error, error_size) &&
-                      read_picture(&files, frames[0], path, &first, error, error_size);
+    video *movie = NULL;
+    const bool read = open_pictures(&files, &movie, frames, error, error_size) &&
+                      read_picture(&files, movie, frames[0], path, &first, error, error_size);
     *format = first.format;
     size[0] = first.width;
     size[1] = first.height;
     free(first.rgb);
+    video_close(&movie);
     plate_files_close(&files);
     return read;
 }
@@ -79,7 +97,7 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
                  .depths = depths_of(def->depths, scene_first),
                  .loaded = UINT32_MAX};
     p->has_depth = def->depths || def->depth_m > 0 || def->keeps_depth;
-    if (!def->stills && (!plate_files_open(&p->pictures, frames, error, error_size) ||
+    if (!def->stills && (!open_pictures(&p->pictures, &p->movie, frames, error, error_size) ||
                          (def->depths && !plate_files_open(&p->depths, frames, error, error_size))))
         return false;
     return allocate(p) || host_fail(error, error_size, "no memory for a plate of %u x %u", def->width, def->height);
@@ -87,6 +105,7 @@ bool plate_open(plate *p, const plate_def *def, uint32_t scene_first, const uint
 
 void plate_close(plate *p)
 {
+    video_close(&p->movie);
     plate_files_close(&p->pictures);
     plate_files_close(&p->depths);
     free(p->picture);
@@ -126,6 +145,8 @@ bool plate_replace(plate *p, const plate_def *def, const picture *given, char *e
 bool plate_has(const plate *p, uint32_t frame)
 {
     char path[4096], ignored[256];
+    if (p->movie)
+        return frame - p->pictures.first < video_count(p->movie);
     return plate_files_name(&p->pictures, frame, path, ignored, sizeof ignored) && !access(path, R_OK);
 }
 
@@ -231,7 +252,7 @@ bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
         now = p->given;
         p->given.rgb = NULL;
         snprintf(path, sizeof path, "%s", p->def.pictures);
-    } else if (!read_picture(&p->pictures, frame, path, &now, error, error_size)) {
+    } else if (!read_picture(&p->pictures, p->movie, frame, path, &now, error, error_size)) {
         return false;
     }
     const size_t pixels = (size_t)now.width * now.height;

@@ -6,6 +6,7 @@
 #include "depth_map.h"
 #include "picture.h"
 #include "shot/plate_files.h"
+#include "video.h"
 
 typedef struct plate_def {
     const char *pictures, *depths; /* patterns, see plate_files; depths NULL: none */
@@ -24,6 +25,7 @@ typedef struct plate_def {
 typedef struct plate {
     plate_def def;
     plate_files pictures, depths;
+    video *movie; /* (pictures) of the frames of a video; NULL: of files */
     bool has_depth;
     uint32_t loaded;     /* frame that is in `rgba` and `depth`; UINT32_MAX: none */
     float *picture;      /* linear light: width x height, rows from the top, alpha 1 */
