@@ -119,6 +119,17 @@ if not water["off_ground"] > 0.8 * water["rained_total"] > 0:
     sys.exit(f"{water['off_ground']} of {water['rained_total']} ul did not fall on the ground")
 END
 
+# It finds a board that only the water and gravity move, too: this one falls and turns from edge-on (0.07) to flat.
+draw roof turning --stats --frames 5 --set 'water.solver.walls={low_m: [-4, 0, -4], high_m: [4, 8, 4]}' \
+    --set 'water.solver.bodies=[{name: turning, box_m: [5.8, 0.4, 5.8], density: 1, position_m: [0, 4, 0],
+    rotation_deg: [0, 0, 90], spin_deg_s: [0, 0, 180]}]'
+python3 - "$work/turning/stats.jsonl" <<'END' || fail "rain on a body that falls"
+import json, sys
+water = json.loads(open(sys.argv[1]).readlines()[-1])["water_ul"]
+if not 0.5 < water["off_ground"] / water["rained_total"] < 0.9:
+    sys.exit(f"{water['off_ground']} of {water['rained_total']} ul did not fall on the ground")
+END
+
 # refuse WHAT OPTION...: rendering refuses the input, in one line that has WHAT.
 refuse() {
     local what=$1 said

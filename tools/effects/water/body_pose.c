@@ -156,27 +156,51 @@ static void place_between(const water_solver *solver, uint32_t index, double tim
     normalize(out->rotation);
 }
 
+void body_place_ahead(const virga_fluid_pose *pose, double ahead_s, body_place *out)
+{
+    const double moving_s = fmin(fmax(ahead_s, 0), 0.5);
+    float arm[3];
+    double old[4], moved[3], half[4] = {0, 0, 0, 1};
+    for (int axis = 0; axis < 3; axis++) {
+        arm[axis] = pose->position_m[axis] - pose->center_m[axis];
+        half[axis] = 0.5 * moving_s * (double)pose->spin_rad_s[axis];
+    }
+    normalize(half);
+    for (int i = 0; i < 4; i++)
+        old[i] = (double)pose->rotation[i];
+    multiply(half, old, out->rotation);
+    turn(half, arm, moved);
+    for (int axis = 0; axis < 3; axis++)
+        out->position_m[axis] =
+            (double)pose->center_m[axis] + moving_s * (double)pose->velocity_m_s[axis] + moved[axis];
+}
+
+bool body_known_pose(const water_solver *solver, uint32_t index, double otherwise_s, virga_fluid_pose *pose,
+                     double *known_s)
+{
+    if (!virga_fluid_body_get(solver->fluid, index, pose))
+        return false;
+    *known_s = pose->frame_index ? solver->frame_s[pose->frame_index % WATER_TIMES] : otherwise_s;
+    return true;
+}
+
+void body_newest_pose(const water_solver *solver, uint32_t index, virga_fluid_pose *pose)
+{
+    const virga_fluid_body_gpu *from = state_of(solver, &solver->now, index);
+    memcpy(pose->position_m, from->origin, sizeof pose->position_m);
+    memcpy(pose->rotation, from->rotation, sizeof pose->rotation);
+    memcpy(pose->velocity_m_s, from->velocity, sizeof pose->velocity_m_s);
+    memcpy(pose->spin_rad_s, from->spin, sizeof pose->spin_rad_s);
+    memcpy(pose->center_m, from->center, sizeof pose->center_m);
+}
+
 /* While the device still works on the step: as the body will have moved since the last state that is known. */
 static void place_ahead(const water_solver *solver, uint32_t index, double time_s, body_place *out)
 {
     virga_fluid_pose pose;
-    if (!virga_fluid_body_get(solver->fluid, index, &pose))
-        return;
-    const double known_s = pose.frame_index ? solver->frame_s[pose.frame_index % WATER_TIMES] : time_s;
-    const double ahead_s = fmin(fmax(time_s - known_s, 0), 0.5);
-    float arm[3];
-    double old[4], moved[3], half[4] = {0, 0, 0, 1};
-    for (int axis = 0; axis < 3; axis++) {
-        arm[axis] = pose.position_m[axis] - pose.center_m[axis];
-        half[axis] = 0.5 * ahead_s * (double)pose.spin_rad_s[axis];
-    }
-    normalize(half);
-    for (int i = 0; i < 4; i++)
-        old[i] = (double)pose.rotation[i];
-    multiply(half, old, out->rotation);
-    turn(half, arm, moved);
-    for (int axis = 0; axis < 3; axis++)
-        out->position_m[axis] = (double)pose.center_m[axis] + ahead_s * (double)pose.velocity_m_s[axis] + moved[axis];
+    double known_s;
+    if (body_known_pose(solver, index, time_s, &pose, &known_s))
+        body_place_ahead(&pose, time_s - known_s, out);
 }
 
 /* ---- meshes */

@@ -12,6 +12,16 @@ typedef struct body_place {
 /* By its keys at a time of the scene, or where it is at the start. */
 void body_place_of_keys(const scene_body *from, double time_s, body_place *out);
 
+/* As it will have moved since a pose, up to half a second later. */
+void body_place_ahead(const virga_fluid_pose *pose, double ahead_s, body_place *out);
+
+/* The newest pose that was read back, and its time; `otherwise_s` before the first step. Costs no wait. */
+bool body_known_pose(const water_solver *solver, uint32_t index, double otherwise_s, virga_fluid_pose *pose,
+                     double *known_s);
+
+/* That after the newest step; the solver's states are readable. */
+void body_newest_pose(const water_solver *solver, uint32_t index, virga_fluid_pose *pose);
+
 void body_copy_place(const body_place *place, float position_m[3], float rotation[4]);
 
 #endif

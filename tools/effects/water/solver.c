@@ -150,6 +150,8 @@ bool water_step_solver(shot *s, water_state *state, VkCommandBuffer cmd, double 
     const double time_s = frame_s + scene_water_of(s->scene)->start_s;
     virga_fluid_step_info info = {.dt_s = (float)fmin(fmax(moving_s, 0), 1)};
     fill_exchange(s, state, time_s, &info);
+    if (!water_note_bodies(s, state, frame_s, error, error_size))
+        return false;
     if (!set_fluid(s, state, error, error_size) || !water_drive_bodies(s, state, time_s, error, error_size) ||
         !shot_ok(s, virga_fluid_step(solver->fluid, cmd, &info), "stepping the solver of water", error, error_size))
         return false;

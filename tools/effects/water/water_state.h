@@ -16,6 +16,8 @@ typedef struct water_body {
     double low[3], high[3];                  /* bounds of these */
     host_buffer sheltering;                  /* its vertices on the device, around its origin */
     uint32_t first_occluder, occluder_count; /* of the shot's; 0: rain does not see it */
+    virga_fluid_pose known;                  /* (the water moves it) before the newest step */
+    double known_s;                          /* at this time */
 } water_body;
 
 #define WATER_TIMES 16 /* frames whose times are known; more than are in flight */
@@ -146,9 +148,11 @@ bool water_draw_bodies(shot *s, water_state *state, VkCommandBuffer cmd, double 
 /* Corners (x, z) of what is around those that have keys, at a time of the scene. All 0: there are none. */
 void water_body_region(const water_state *state, double time_s, double margin_m, float low_m[2], float high_m[2]);
 
-/* Lets rain hit those that the water does not move: adds them to the shot's occluders, once, and moves them there to a
- * time of the scene. */
+/* Lets rain hit them: adds them to the shot's occluders, once, and moves them there to a time of the scene. Those that
+ * the water moves go on there as the last step left them, which water_note_bodies finds out before the next step is
+ * recorded. It waits for the device, except in a live shot. */
 bool water_add_occluders(shot *s, water_state *state, char *error, size_t error_size);
+bool water_note_bodies(shot *s, water_state *state, double frame_s, char *error, size_t error_size);
 void water_move_occluders(shot *s, const water_state *state, double time_s);
 
 void water_write_body_stats(const water_state *state, jsonl *stats);
