@@ -114,6 +114,17 @@ averages |
            exit !(NF == 4 && $1 < 0.5 * $2 && $3 < 0.5 * $4 && $2 < 1.2 * $4 && $2 > 0.8 * $4) }' ||
     fail "the box is not mirrored, or the road is not as bright as the scene's"
 
+# ---- checkpoints belong to a mask
+render_saved() {
+    VIRGA_VALIDATE=0 draw road saved --plate "$work/plate/frame.0001.exr" --set rain.max_drops=1024 \
+        --set splash.max_splashes=1024 "$@"
+}
+render_saved --ground-mask "$work/mask.exr" --frames 1-2 --simulate --checkpoint-every 2
+render_saved --ground-mask "$work/mask.exr" --frames 3 --layers beauty
+grep -q 'starts from the checkpoint of frame 2' "$work/log" || { cat "$work/log"; fail "no checkpoint"; }
+render_saved --frames 4 --layers beauty
+grep -q 'is not used: it is of another scene' "$work/log" || { cat "$work/log"; fail "a checkpoint of another mask"; }
+
 # ---- what is wrong
 
 refuses() {

@@ -175,6 +175,34 @@ if "$virga" info --device "$device" | grep -q '^\*.*llvmpipe'; then # storage bu
 fi
 has '40 mm/h' "$work/pools.out"
 
+# ---- any frame, from the nearest checkpoint: what virga render draws
+(cd "$work" && "$virga" render rain.yaml -o saved --frames 1-12 --simulate --checkpoint-every 6 --device "$device") \
+    >"$work/log" 2>&1 || { cat "$work/log"; fail "checkpoints"; }
+view rain sought --checkpoints saved <<'END' || { cat "$work/sought.err"; fail "sought"; }
+seek 8
+print
+shot ahead.exr
+seek 14
+seek 8
+shot back.exr
+quit
+END
+view rain stepped <<'END' || { cat "$work/stepped.err"; fail "stepped"; }
+seek 8
+shot stepped.exr
+quit
+END
+has 'frame 8, from the checkpoint of frame 6' "$work/sought.err"
+has 'frame 14, from the checkpoint of frame 12' "$work/sought.err"
+has 'time 0.2917 s, paused' "$work/sought.out"
+size=$(sed -n 's/.* \([0-9]*\) x \([0-9]*\)$/\1x\2/p' "$work/sought.out" | head -n 1)
+"$virga" render "$work/rain.yaml" -o "$work/drawn" --frames 8 --size "$size" --device "$device" >"$work/log" 2>&1 ||
+    { cat "$work/log"; fail "frame 8"; }
+for other in back.exr stepped.exr drawn/frame.0008.exr; do
+    idiff -q -fail 0 "$work/ahead.exr" "$work/$other" >"$work/log" 2>&1 ||
+        { cat "$work/log"; fail "another frame: $other"; }
+done
+
 # ---- a lens that is opened while the window is there
 
 view rain opened <<'END' || { cat "$work/opened.err"; fail "opened"; }

@@ -17,6 +17,8 @@ static const option_row rows[] = {
     {"--window", 0, "WxH", "size of the window in pixels. Default 1600x900", false},
     {"--downscale", 0, "N", "1, 2 or 4: divides the picture's width and height. Default 1; on software Vulkan 2",
      false},
+    {"--checkpoints", 0, "DIR",
+     "folder with checkpoints of virga render --checkpoint-every: going to a frame starts from the nearest one", false},
     {"--script", 0, "FILE", "run the commands in a file, see below", false},
     {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
@@ -69,6 +71,7 @@ static bool read_options(viewer *v, options *parsed, uint32_t window[2], int arg
                                 parsed->argument_count);
     const char *script = options_value(parsed, "--script");
     v->path = parsed->arguments[0];
+    v->checkpoints = options_value(parsed, "--checkpoints");
     if (!options_pair(parsed, "--window", 'x', false, 320, 8192, window) ||
         !options_uint(parsed, "--downscale", 1, 4, &v->divide))
         return false;

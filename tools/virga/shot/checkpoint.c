@@ -4,6 +4,7 @@
 #include "effect.h"
 #include "packed_file.h"
 #include "shot/internal.h"
+#include "shot/plate_ground.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The head of a file. The same bytes need the same scene, on the same device and driver. */
+/* The head of a file. The same bytes need the same scene, and ground of its footage, on the same device and driver. */
 typedef struct checkpoint_head {
     uint64_t scene_hash;
     uint32_t frame, driver_version;
@@ -23,7 +24,7 @@ static void fill_head(const shot *s, uint32_t frame, checkpoint_head *head)
     VkPhysicalDeviceProperties properties;
     memset(head, 0, sizeof *head);
     vkGetPhysicalDeviceProperties(s->device.physical, &properties);
-    head->scene_hash = scene_file_hash(s->scene);
+    head->scene_hash = scene_file_hash(s->scene) ^ (s->plate_ground ? s->plate_ground->hash : 0);
     head->frame = frame;
     head->driver_version = properties.driverVersion;
     snprintf(head->device, sizeof head->device, "%s", properties.deviceName);

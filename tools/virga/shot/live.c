@@ -1,10 +1,12 @@
 /* live.c - steps and draws a shot whose time, camera and settings a user controls. */
 #include "shot/internal.h"
 
+#include "shot/checkpoint.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* What may have changed in the scene since the last frame, beside the settings that every step applies. */
 static bool follow_scene(shot *s, char *error, size_t error_size)
@@ -58,6 +60,57 @@ bool shot_live_restart(shot *s, char *error, size_t error_size)
     s->warning[0] = 0;
     s->keys_from_file = false;
     return shot_load_camera(s, error, error_size) && shot_open_scene(s, error, error_size);
+}
+
+/* The nearest checkpoint before a frame, if it saves steps. One that can not be loaded is only slower. */
+static bool load_nearest(shot *s, const char *folder, uint32_t frame, uint32_t *from, char *error, size_t error_size)
+{
+    const uint32_t before_first = s->scene->frames.first - 1;
+    const bool began = s->began, ahead = began && s->camera_time_s <= shot_time(s, frame);
+    char reason[1024];
+    bool torn = false;
+    uint32_t found;
+    s->began = false; /* also those before the current frame */
+    const bool has = folder && checkpoint_find(s, folder, frame + 1, &found);
+    s->began = began;
+    if (!has || (ahead && s->camera_time_s >= 0 && found - before_first <= s->frame_index - before_first))
+        return true;
+    if (checkpoint_load(s, folder, found, &torn, reason, sizeof reason))
+        *from = found;
+    else if (torn)
+        return host_fail(error, error_size, "the checkpoint of frame %u is damaged, delete it: %s", found, reason);
+    else
+        fprintf(stderr, "virga view: a checkpoint is not used: %s\n", reason);
+    return true;
+}
+
+/* To the next time that is that of a frame. The first step fills the state, and no time passes in it. */
+static bool step_ahead(shot *s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    const double fps = s->scene->frames.fps, now = s->camera_time_s * fps;
+    const double next = s->began ? floor(now + 1e-6) + 1 : now, time_s = s->began ? next / fps : s->camera_time_s;
+    const double dt_s = !s->began ? 0 : next - now > 1 - 1e-6 ? 1 / fps : (next - now) / fps;
+    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_time(s, cmd, time_s, dt_s, error, error_size) ||
+        !host_submit(&s->device, error, error_size))
+        return false;
+    s->began = true;
+    return true;
+}
+
+bool shot_live_seek(shot *s, const char *checkpoints, uint32_t frame, uint32_t *from, char *error, size_t error_size)
+{
+    const double target_s = shot_time(s, frame), close_s = 1e-6 / s->scene->frames.fps;
+    *from = UINT32_MAX;
+    if (!host_wait(&s->device, error, error_size) || !load_nearest(s, checkpoints, frame, from, error, error_size))
+        return false;
+    if (s->camera_time_s > target_s + close_s && !shot_live_restart(s, error, error_size))
+        return false;
+    while (!s->began || s->camera_time_s < target_s - close_s)
+        if (!step_ahead(s, error, error_size))
+            return false;
+    s->frame_index = frame;
+    return host_wait(&s->device, error, error_size);
 }
 
 bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, size_t error_size)

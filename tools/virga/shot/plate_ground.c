@@ -370,6 +370,18 @@ static bool add_look(shot *s, const grid *seen, float height_m, char *error, siz
            host_renderer_set_footage(s->renderer, &s->target, mesh, error, error_size);
 }
 
+/* FNV-1a of where the ground is. */
+static uint64_t hash_of(const grid *g)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (uint32_t i = 0; i < g->index_count; i++) {
+        const uint8_t *bytes = (const uint8_t *)g->vertices[g->indices[i]].position;
+        for (size_t k = 0; k < sizeof g->vertices->position; k++)
+            hash = (hash ^ bytes[k]) * UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
+
 uint32_t plate_ground_meshes(const shot *s)
 {
     return s->plate_ground ? 2 : 0;
@@ -388,6 +400,7 @@ bool plate_ground_load_meshes(shot *s, char *error, size_t error_size)
     }
     if (made && footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH && !s->plate_ground->has_masks)
         keep_near(&seen, height_m);
+    s->plate_ground->hash = hash_of(&seen);
     made = made && make_mesh(s, &seen, height_m, error, error_size) && shot_add_mesh(s, true, error, error_size) &&
            (!s->renderer || add_look(s, &seen, height_m, error, error_size));
     free(seen.vertices);

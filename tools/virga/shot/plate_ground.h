@@ -11,6 +11,7 @@ typedef struct plate_ground {
     float *picture; /* share of each pixel that is ground: of the plate's picture, */
     float *share;   /* and as the pinhole sees it; the same memory where the lens bends nothing */
     uint32_t loaded;
+    uint64_t hash; /* of the ground's mesh, which the simulation depends on */
     uint32_t look; /* (drawing) index of the shot's mesh that is drawn wet */
 } plate_ground;
 

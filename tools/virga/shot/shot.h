@@ -42,6 +42,12 @@ bool shot_live_draw(shot *s, uint32_t samples, host_camera *camera, char *error,
 /* All that the scene names, anew, at time 0. Waits for the device. */
 bool shot_live_restart(shot *s, char *error, size_t error_size);
 
+/* Goes to the time of a frame, back or ahead, frame by frame without drawing: from the nearest checkpoint in a folder
+ * (NULL: none), from the current time, or from the start. Once the state is that of a frame, and not of a time between
+ * two, it is the one that shot_step reaches. Waits for the device. *from: the frame of a checkpoint that was used, or
+ * UINT32_MAX. */
+bool shot_live_seek(shot *s, const char *checkpoints, uint32_t frame, uint32_t *from, char *error, size_t error_size);
+
 /* Another size of the picture. Waits for the device. */
 bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, size_t error_size);
 

@@ -182,6 +182,11 @@ static bool between_frames(viewer *v, const float area[4])
         if (!view_start_again(v))
             return false;
     }
+    if (v->seeks) {
+        v->seeks = false;
+        if (!view_seek(v))
+            return false;
+    }
     return fit_shot(v, area) && (!v->shot_file[0] || !v->frame || write_shot(v));
 }
 

@@ -25,6 +25,15 @@ void part_time(viewer *v)
     tooltip("the rain from the start, with all settings (R)");
     ImGui::SameLine();
     ImGui::TextColored(COLOR_HINT, "%.2f s, frame %u", v->shot.camera_time_s, v->shot.frame_index);
+    int frame = (int)v->shot.frame_index;
+    const int first = (int)v->scene->frames.first, last = (int)v->scene->frames.last;
+    ImGui::SetNextItemWidth(-1);
+    ImGui::SliderInt("##frame", &frame, first, std::max(last, first + 1), "frame %d", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemActive())
+        v->seek_to = (uint32_t)frame;
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        v->paused = v->seeks = true;
+    tooltip("go to a frame of the scene; far ahead and back it is quick with --checkpoints");
     float speed = (float)v->speed;
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderFloat("##speed", &speed, 0.05f, 1, "speed of time x %.2f", ImGuiSliderFlags_AlwaysClamp))

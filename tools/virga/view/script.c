@@ -184,6 +184,15 @@ static bool do_restart(viewer *v, const script_line *line)
     return true;
 }
 
+static bool do_seek(viewer *v, const script_line *line)
+{
+    if (!read_count(v, line->arguments[0], v->scene->frames.first, 999999, &v->seek_to))
+        return false;
+    v->paused = v->seeks = true;
+    v->script->wait = 1;
+    return true;
+}
+
 static bool do_resize(viewer *v, const script_line *line)
 {
     uint32_t size[2];
@@ -277,6 +286,7 @@ static const struct {
     {"step", "[N]", "draw N frames, then stop time", 0, 1, do_step},
     {"speed", "X", "speed of time, 0.05 to 1", 1, 1, do_speed},
     {"restart", "", "restart the simulation with all settings", 0, 0, do_restart},
+    {"seek", "FRAME", "go to that frame of the scene, and stop time", 1, 1, do_seek},
     {"resize", "W H", "resize the window, pixels", 2, 2, do_resize},
     {"panel", "on|off", "show or hide the panel", 1, 1, do_panel},
     {"unfold", "TITLE on|off", "open or close a part of the panel, by the start of its title", 2, 2, do_unfold},

@@ -60,3 +60,20 @@ bool view_start_again(viewer *v)
     view_print(v, "%s; started as before", why);
     return true;
 }
+
+bool view_seek(viewer *v)
+{
+    uint32_t from;
+    memset(&v->numbers, 0, sizeof v->numbers);
+    if (!shot_live_seek(&v->shot, v->checkpoints, v->seek_to, &from, v->error, sizeof v->error))
+        return false;
+    if (from == UINT32_MAX)
+        view_print(v, "frame %u", v->seek_to);
+    else if (from + 1 == v->scene->frames.first)
+        view_print(v, "frame %u, from the checkpoint after the pre-roll", v->seek_to);
+    else
+        view_print(v, "frame %u, from the checkpoint of frame %u", v->seek_to, from);
+    if (v->script)
+        fprintf(stderr, "%s\n", v->message);
+    return true;
+}

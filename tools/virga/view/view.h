@@ -71,6 +71,7 @@ typedef struct view_started view_started;
 typedef struct viewer {
     scene_file *scene, *loaded; /* as changed by the user; as loaded from the file and the command line */
     const char *path;           /* of the file */
+    const char *checkpoints;    /* folder of checkpoints, or NULL */
     const char *const *overrides;
     size_t override_count;
     scene_setting *settings; /* of `scene` */
@@ -106,6 +107,8 @@ typedef struct viewer {
 
     /* Work to do between frames. */
     bool restart, quit;
+    bool seeks; /* to the frame `seek_to` */
+    uint32_t seek_to;
     bool needs_restart;     /* a changed setting needs a restart */
     char window_shot[1024]; /* file for a picture of the window, or empty */
     char shot_file[1024];   /* file for a picture of the scene, or empty */
@@ -163,6 +166,9 @@ bool view_remember_start(viewer *v);
 /* Restarts the rain between frames. If it can not start with the changed settings, it starts with the previous ones and
  * the reason is shown. False: both failed, see v->error. */
 bool view_start_again(viewer *v);
+
+/* Goes to the frame v->seek_to between frames, see shot_live_seek. */
+bool view_seek(viewer *v);
 
 /* ---- frame.c */
 
