@@ -75,10 +75,12 @@ static void a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer
 
 #define SLAB_M 0.05 /* half of its side */
 
+static double slab_low, slab_high; /* its lower and its upper face (m) */
+
 /* Where a ray meets the slab, or INFINITY. */
 static double slab_distance(const double eye[3], const double direction[3])
 {
-    const double low[3] = {-SLAB_M, -0.04, -SLAB_M}, high[3] = {SLAB_M, -0.01, SLAB_M};
+    const double low[3] = {-SLAB_M, slab_low, -SLAB_M}, high[3] = {SLAB_M, slab_high, SLAB_M};
     double near = 0, far = INFINITY;
     for (int i = 0; i < 3; i++) {
         const double a = (low[i] - eye[i]) / direction[i], b = (high[i] - eye[i]) / direction[i];
@@ -124,11 +126,13 @@ static void an_object_under_water_has_no_outline_beside_it(void **state)
     memset(&s.f.settings.lighting, 0, sizeof s.f.settings.lighting);
     for (int c = 0; c < 3; c++)
         s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 12; i++) {
         uint32_t whole = 0, beside = 0;
-        shot_aim(&s, eyes[i], (const double[3]){0, -0.05, 0});
+        slab_low = (const double[4]){-0.04, -0.09, -0.095, -0.09}[i / 3];
+        slab_high = (const double[4]){-0.01, -0.01, -0.085, -0.07}[i / 3];
+        shot_aim(&s, eyes[i % 3], (const double[3]){0, -0.05, 0});
         shot_draw(&s);
-        shot_save(&s, (const char *[3]){"slab0", "slab1", "slab2"}[i]);
+        shot_save(&s, (const char *[3]){"slab0", "slab1", "slab2"}[i % 3]);
         for (uint32_t k = 0; k < SIDE * SIDE; k++) {
             const uint32_t piece = take_piece(k % SIDE, k / SIDE), larger = piece > whole ? piece : whole;
             beside += piece + whole - larger;

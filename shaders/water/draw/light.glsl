@@ -4,7 +4,9 @@ layout(set = 0, binding = 19) uniform sampler2D panorama;
 
 #include "fresnel.glsl"
 
-#define STEPS 4 // of the search for where a ray meets the scene
+#define STEPS 12    // at most, of the search for where a ray meets the scene
+#define CLOSE 0.002 // it ends when a step changes the length by less than this part
+#define SAME  0.03  // and what it found counts if it does not miss the scene by more
 
 struct Point {
     vec3 position; // relative to the camera
@@ -79,12 +81,14 @@ float meeting(Point point, Path path)
     for (int i = 0; i < STEPS; i++) {
         s = next >= before && next < behind ? next : 0.5 * (before + behind);
         next = next_length(point, path, s);
+        if (abs(next - s) <= CLOSE * max(next, s))
+            return s; // whose pixel was looked at; that of `next` may be beyond an edge
         if (next < s)
             behind = min(behind, s);
         else
             before = max(before, s);
     }
-    return abs(next - s) > 0.1 * max(next, s) ? before : next;
+    return abs(next - s) > SAME * max(next, s) ? before : s;
 }
 
 // Whether the edge of an object runs between the four texels around a position in the picture. Their mean would show
