@@ -62,12 +62,36 @@ enum {
     COUNT_COLUMNS,
     COUNT_ROWS,
     COUNT_TILES,
+    COUNT_BLOCK_COLUMNS,
+    COUNT_BLOCK_ROWS,
     COUNT_APERTURE,
     COUNT_APERTURE_ROWS,
     COUNT_VIEWS,
     COUNT_CIRCLES_WIDTH,
     COUNT_CIRCLES_HEIGHT,
 };
+
+/* Blocks along a side with a ring around them, up to whole workgroups. */
+static uint32_t level_size(uint32_t texels, uint32_t level)
+{
+    return (((texels + (1u << level) - 1) >> level) + 2 + 7) & ~7u;
+}
+
+void lens_blocks_size(uint32_t columns, uint32_t rows, uint32_t *width, uint32_t *height)
+{
+    const uint32_t below = level_size(columns, 2) + level_size(columns, 3);
+    *width = level_size(columns, 1) > below ? level_size(columns, 1) : below;
+    *height = level_size(rows, 1) + level_size(rows, 2);
+}
+
+static void count_blocks(VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    uint32_t width = 0, height = 0;
+    if (counts[COUNT_COLUMNS])
+        lens_blocks_size((uint32_t)counts[COUNT_COLUMNS], (uint32_t)counts[COUNT_ROWS], &width, &height);
+    counts[COUNT_BLOCK_COLUMNS] = width;
+    counts[COUNT_BLOCK_ROWS] = height;
+}
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
@@ -78,6 +102,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_HEIGHT] = height;
     counts[COUNT_COLUMNS] = (width + step - 1) / step;
     counts[COUNT_ROWS] = (height + step - 1) / step;
+    count_blocks(counts);
     counts[COUNT_CIRCLES_WIDTH] = def->max_width - width;
     counts[COUNT_CIRCLES_HEIGHT] = def->max_height - height;
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
@@ -109,6 +134,8 @@ static const virga_effect_image images[] = {
      VIRGA_FIRST_STORAGE},
     {"lens.spreads", AT(spreads), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
      VIRGA_FIRST_STORAGE},
+    {"lens.blocks", AT(blocks), VK_FORMAT_R32G32B32A32_UINT, COLOR, WRITTEN, COUNT_BLOCK_COLUMNS, COUNT_BLOCK_ROWS,
+     VIRGA_LENS_BLOCK_KINDS *VIRGA_LENS_BLOCK_PARTS, VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -153,6 +180,8 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},          /* 27 */
     BUFFER(lists),                                   /* 28 */
     {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
+    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
+    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -165,6 +194,7 @@ static const virga_effect_pass passes[] = {
     PASS(sample, .forms = 2),
     PASS(tile, .forms = VIRGA_LENS_LAYERS + 1),
     PASS(reach),
+    {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
     PASS(gather, .forms = LENS_GATHERS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),

@@ -126,6 +126,11 @@ static void fill_lens(const virga_lens *lens, const virga_view *view, double tim
     out->max_radius = settings->max_radius_px / (float)out->step;
     if (!lens->def.circles)
         out->max_radius = fminf(out->max_radius, VIRGA_LENS_MAX_RADIUS);
+    out->levels = 0;
+    while (out->levels < VIRGA_LENS_LEVELS && out->max_radius > (float)(VIRGA_LENS_FINE << out->levels))
+        out->levels++;
+    const double most = VIRGA_LENS_MAX_RADIUS, shape = (double)lens->areas[VIRGA_LENS_SPREADS - 1] / (most * most);
+    out->edge_area = (float)(VIRGA_LENS_EDGE_VARIANCE * PI / shape);
     out->follow = settings->follow;
     out->focus_x = pixel_at(settings->focus_point[0], out->left, out->width);
     out->focus_y = pixel_at(settings->focus_point[1], out->top, out->height);
@@ -203,6 +208,8 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
         if (!bound[i].view && lens->bindings->kinds[i].source == VIRGA_SOURCE_IMAGE)
             bound[i] = out; /* no pass uses it, but software Vulkan looks at every image of a set */
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
+    bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
+        lens->def.circles ? out : in_general(lens->blocks, context->nearest);
     bound[LENS_BIND_ON_SCENE] = virga_bound_or_blank(NULL, lens->blank_color, context->nearest);
     for (uint32_t i = 0; i < VIRGA_LENS_LAYERS; i++) {
         const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
@@ -296,6 +303,22 @@ static void record_combine(virga_lens *lens, VkCommandBuffer cmd, const virga_le
     virga_pass_end(context, cmd, scope);
 }
 
+/* Blocks of all levels and kinds, of the scene or of a layer. */
+static void record_blocks(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t form,
+                          uint32_t layer)
+{
+    virga_context *context = lens->base.context;
+    uint32_t width, height;
+    if (!view->levels)
+        return;
+    lens_blocks_size(view->columns, view->rows, &width, &height);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.blocks");
+    context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof layer, &layer);
+    virga_dispatch_2d(context, cmd, lens->block[form], width / GROUP, VIRGA_LENS_BLOCK_KINDS * (height / GROUP));
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
 static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
     virga_context *context = lens->base.context;
@@ -304,6 +327,7 @@ static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_len
             continue;
         const uint32_t form = shaped | (view->layer_inv_m[i] > 0 ? 0 : VIRGA_LENS_DEPTHS);
         over(lens, cmd, "lens.layers", lens->layer_sample[i], view->columns, view->rows);
+        record_blocks(lens, cmd, view, VIRGA_LENS_BLOCKS_LAYER, i);
         context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof i, &i);
         over(lens, cmd, "lens.layers", lens->layer[form], view->columns, view->rows);
     }
@@ -314,7 +338,7 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
 {
     virga_context *context = lens->base.context;
     const uint32_t shaped = view->blades > 0 || view->cats_eye > 0 ? VIRGA_LENS_SHAPED : 0;
-    const uint32_t radius = (uint32_t)fminf(ceilf(view->max_radius) + 1, VIRGA_LENS_MAX_RADIUS);
+    const uint32_t radius = view->levels ? VIRGA_LENS_MAX_RADIUS : (uint32_t)ceilf(view->max_radius) + 1;
     over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE,
          VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0));
     over(lens, cmd, "lens.sample", lens->sample[is_linear(view)], view->columns, view->rows);
@@ -323,6 +347,7 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
+    record_blocks(lens, cmd, view, view->on_scene ? VIRGA_LENS_BLOCKS_ON_SCENE : VIRGA_LENS_BLOCKS_SCENE, 0);
     record_gather(lens, cmd, view, shaped | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0));
     record_layers(lens, cmd, view, shaped);
 }

@@ -26,6 +26,8 @@ enum {
     LENS_BIND_CIRCLES,
     LENS_BIND_LISTS,
     LENS_BIND_FOCUS,
+    LENS_BIND_BLOCKS,
+    LENS_BIND_BLOCKS_WRITTEN,
     LENS_BINDINGS,
 };
 
@@ -53,16 +55,21 @@ struct virga_lens {
     VIRGA_PER_VIEW(virga_image_2d, picture);
     VIRGA_PER_VIEW(virga_image_2d, fields);
     VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
-    virga_image_2d *aperture, *samples, *spreads, *blank_depth, *blank_color;
+    virga_image_2d *aperture, *samples, *spreads, *blocks, *blank_depth, *blank_color;
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
-    virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach, *gather[LENS_GATHERS],
-        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
-        *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)], *paper[2 * (VIRGA_LENS_LAYERS + 1)],
-        *circle[VIRGA_LENS_LAYERS + 1];
+    virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach,
+        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *layer_sample[VIRGA_LENS_LAYERS],
+        *layer[LENS_LAYER_FORMS], *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)],
+        *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
 };
+
+/* ---- lens.c */
+
+/* The image of blocks for a work image of this size, see shaders/lens/levels.glsl. */
+void lens_blocks_size(uint32_t columns, uint32_t rows, uint32_t *width, uint32_t *height);
 
 /* ---- lens_aperture.c */
 

@@ -4,6 +4,7 @@
 // A regular polygon of N straight blades, whose corners are at radius 1, has its edge at cos(pi/N) / cos(phi) in the
 // direction that is phi away from the middle of a blade. Rounded blades are between that and the circle.
 // Below it stand the areas of the image by its radius, for spread.glsl: texels are cheaper than words of a block.
+// Wide discs read it at its rim, whatever their radius, see blocks.glsl.
 // One invocation per offset up to the largest radius of the view, and per area. Writes: aperture.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -25,7 +26,7 @@ void main()
         imageStore(aperture, ivec2(at.x, VIRGA_LENS_APERTURE + at.y), vec4(view.areas[entry]));
         return;
     }
-    const int most = min(int(ceil(view.max_radius)) + 1, VIRGA_LENS_MAX_RADIUS);
+    const int most = view.levels > 0u ? VIRGA_LENS_MAX_RADIUS : int(ceil(view.max_radius)) + 1;
     const ivec2 offset = ivec2(at.x - VIRGA_LENS_MAX_RADIUS, at.y - VIRGA_LENS_AREA_ROWS - most);
     if (offset.y > most)
         return;

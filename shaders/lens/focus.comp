@@ -1,5 +1,5 @@
 // focus.comp - the focus of this view: as set, or eased towards what is at the focus point. It is eased in 1/m, in
-// which the blur is linear. At half resolution it also empties the lists of tiles.
+// which the blur is linear. It also empties the lists of tiles.
 // One invocation. Reads: depth. Writes: state, lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -22,6 +22,8 @@ void main()
         next = mix(state.focus_inv_m, next, view.ease);
     state.focus_inv_m = next;
     state.focused = 1u;
+    if (!HALVED)
+        lists[0].levels = 0u;
     if (HALVED)
         for (uint kind = 0u; kind < VIRGA_LENS_TILE_KINDS; kind++)
             lists[kind] = virga_lens_list_gpu(TILE_GROUPS * TILE_GROUPS, 0u, 0u, 4u * TILE_GROUPS * TILE_GROUPS, 0u, 0u,

@@ -11,15 +11,18 @@
 // neither is a dark edge of it around what is in focus, nor a hole.
 //
 // A layer that lies on the scene, as haze does, is spread by the same weights.
+//
+// Discs up to VIRGA_LENS_FINE texels are gathered from the samples one by one, wider ones from blocks, see levels.glsl.
 // At half resolution it works on one list of tiles after the other.
-// One invocation per texel. Reads: samples, spreads, aperture, reaches, lists, that layer. Writes: fields.
+// One invocation per texel. Reads: samples, spreads, blocks, aperture, reaches, lists, that layer. Writes: fields.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
-#include "aperture.glsl"
 #include "pixels.glsl"
+#include "blocks.glsl"
 #include "lists.glsl"
+#include "on_scene.glsl"
 
 const bool NEAR = (OWN_FORM & VIRGA_LENS_NO_NEAR) == 0u;
 const bool ON_SCENE = (OWN_FORM & VIRGA_LENS_ON_SCENE) != 0u; // a layer lies on the scene
@@ -28,7 +31,6 @@ layout(push_constant) uniform List { uint kind; }; // at half resolution
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(set = 0, binding = 25) uniform sampler2D spreads;
-layout(set = 0, binding = 26) uniform sampler2D on_scene;
 layout(std430, set = 0, binding = 10) readonly buffer Reaches { vec4 reaches[]; };
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 
@@ -37,22 +39,10 @@ float disc_area(float radius) { return 3.14159265 * (radius * radius + 1.0 / 12.
 
 // Behind what is out of focus in front, the scene is not known: it is filled in from around, mostly from the nearest
 // samples. Those that would reach this far by themselves count in full.
-float nearness(ivec2 apart, float radius, float own)
+float nearness(vec2 apart, float radius, float own)
 {
-    const float share = dot(vec2(apart), vec2(apart)) / max(radius * radius, 1.0);
+    const float share = dot(apart, apart) / max(radius * radius, 1.0);
     return own < -POINT ? 1.0 / max(share * share * share, 1.0) : 1.0;
-}
-
-// The nearest texel of the work image.
-ivec2 inside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(view.columns, view.rows) - 1); }
-
-// The mean of the pixels in a texel of the layer that lies on the scene.
-vec4 on_scene_mean(ivec2 texel)
-{
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < STEP * STEP; i++)
-        sum += finite(texelFetch(on_scene, pixel_of(texel, i), 0));
-    return sum / float(STEP * STEP);
 }
 
 // What is gathered of a field: the scene's color and weight, and the layer on it.
@@ -60,20 +50,34 @@ struct field_sum {
     vec4 scene, on;
 };
 
-// Each field has a loop of its own, because few tiles have both.
-field_sum gather_near(ivec2 texel, float reach, barrel cut, out float circle_sum)
+// What a texel gathers. Each field has loops of its own, because few tiles have both.
+struct gatherer {
+    ivec2 texel;
+    float own;    // its circle of confusion
+    vec2 reach;   // the largest radius that reaches its tile, in front of the focus and behind it
+    uint levels;  // that have such light
+    int top;      // the highest of them
+    barrel cut;
+    bool behind;  // it is in front of the focus, and looks for what is behind it
+    bool beside;  // (half resolution) it is in focus, and looks for the far field of its neighbours
+};
+
+bool has_level(gatherer to, uint group, uint level) { return (to.levels & level_bit(group, level)) != 0u; }
+
+// In front of the focus, from samples. Wide discs come from blocks.
+field_sum gather_near(gatherer to, inout float circle_sum)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
-    const int rows = reach > POINT ? int(ceil(reach)) : -1;
-    circle_sum = 0.0;
+    const float most = level_radius(0u), reach = min(to.reach.x, most);
+    const int rows = reach > POINT && has_level(to, 1u, 0u) ? int(ceil(reach)) : -1;
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y);
         for (int x = -columns; x <= columns; x++) {
-            const ivec2 apart = ivec2(x, y), from = inside(texel + apart);
+            const ivec2 apart = ivec2(x, y), from = inside(to.texel + apart);
             const vec4 source = texelFetch(samples, from, 0);
             // Seen from the source, this texel is at -apart, and the image is upside down.
-            const float weight =
-                source.a < -POINT ? covers(apart, -source.a, cut) * texelFetch(spreads, from, 0).r : 0.0;
+            const float weight = source.a < -POINT && source.a >= -most
+                                     ? covers(apart, -source.a, to.cut) * texelFetch(spreads, from, 0).r : 0.0;
             sum.scene += weight * vec4(source.rgb, 1.0);
             circle_sum += weight * source.a;
             if (ON_SCENE)
@@ -83,22 +87,58 @@ field_sum gather_near(ivec2 texel, float reach, barrel cut, out float circle_sum
     return sum;
 }
 
-field_sum gather_far(ivec2 texel, float own, float reach, barrel cut)
+// The same, from the blocks of a level.
+field_sum gather_near_blocks(gatherer to, uint level, inout float circle_sum)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const float reach = has_level(to, 1u, level) ? min(to.reach.x, level_radius(level)) : -1.0;
+    const seen_level at = see_level(level, to.texel, reach);
+    const ivec2 rows = rows_of(at);
+    for (int y = rows.x; y <= rows.y; y++) {
+        const ivec2 columns = columns_of(at, y);
+        for (int x = columns.x; x <= columns.y; x++) {
+            const block source = block_at(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+            const vec2 weights = block_covers(source, source.radius, to.cut) / BLOCKS_PER_DISC;
+            sum.scene += weights.xxxy * source.light;
+            circle_sum += weights.y * source.light.a * source.radius;
+            if (ON_SCENE)
+                sum.on += weights.y * block_on_scene(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+        }
+    }
+    return sum;
+}
+
+// How far a texel looks for samples behind the focus, one by one. A texel behind the focus is covered by nothing wider
+// than its own circle; behind a near one it may be any.
+float far_reach(gatherer to)
+{
+    const float most = level_radius(0u);
+    if (to.behind)
+        return min(max(to.reach.y, -to.own), most);
+    if (level_of(to.own) == 0u && !to.beside)
+        return max(to.own, POINT);
+    return has_level(to, 0u, 0u) ? min(to.reach.y, most) : -1.0;
+}
+
+field_sum gather_far(gatherer to)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const float reach = far_reach(to);
+    // What is in blocks is not looked for here, but a texel that is nearly in focus cuts all to its own small circle.
+    const bool small = !to.behind && !to.beside && level_of(to.own) == 0u;
+    const float most = small ? view.max_radius : level_radius(0u), least = to.beside ? POINT : -POINT;
+    const float cut_to = to.beside ? view.max_radius : max(to.own, POINT);
     const int rows = int(ceil(reach));
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y);
         for (int x = -columns; x <= columns; x++) {
-            const ivec2 apart = ivec2(x, y), from = inside(texel + apart);
+            const ivec2 apart = ivec2(x, y), from = inside(to.texel + apart);
             const vec4 source = texelFetch(samples, from, 0);
-            float radius = NEAR && own < -POINT ? max(source.a, -own) : min(source.a, max(own, POINT));
-            float least = -POINT;
-            if (HALVED && abs(own) <= POINT)
-                radius = source.a, least = POINT;
-            float weight = source.a >= least ? covers(-apart, radius, cut) / disc_area(max(radius, POINT)) : 0.0;
+            const float radius = NEAR && to.behind ? max(source.a, -to.own) : min(source.a, cut_to);
+            float weight = source.a >= least && source.a <= most
+                               ? covers(-apart, radius, to.cut) / disc_area(max(radius, POINT)) : 0.0;
             if (NEAR)
-                weight *= nearness(apart, source.a, own);
+                weight *= nearness(vec2(apart), source.a, to.own);
             sum.scene += weight * vec4(source.rgb, 1.0);
             if (ON_SCENE)
                 sum.on += weight * on_scene_mean(from);
@@ -107,21 +147,74 @@ field_sum gather_far(ivec2 texel, float own, float reach, barrel cut)
     return sum;
 }
 
-// The far field of a texel, with weights.
-field_sum scene_behind(ivec2 texel, vec4 own, float reach, barrel cut)
+// How far it looks in the blocks of a level.
+float far_block_reach(gatherer to, uint level)
 {
-    const bool in_focus = HALVED && abs(own.a) <= POINT;
-    // A texel behind the focus is covered by nothing wider than its own circle; behind a near one it may be any.
-    const float far_reach = own.a < -POINT ? max(reach, -own.a) : in_focus ? reach : max(own.a, POINT);
-    field_sum sum = gather_far(texel, own.a, far_reach, cut);
-    if (!in_focus)
+    const float most = level_radius(level), fill = max(to.reach.y, -to.own);
+    if (to.behind)
+        return level_of(fill) == level ? fill : -1.0;
+    if (!has_level(to, 0u, level) || (level_of(to.own) == 0u && !to.beside))
+        return -1.0;
+    return min(min(to.reach.y, most), to.beside ? most : to.own);
+}
+
+field_sum gather_far_blocks(gatherer to, uint level)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const uint kind = to.behind ? VIRGA_LENS_BLOCKS_ALL : VIRGA_LENS_BLOCKS_FAR;
+    const float cut_to = to.beside ? view.max_radius : to.own;
+    const seen_level at = see_level(level, to.texel, far_block_reach(to, level));
+    const ivec2 rows = rows_of(at);
+    for (int y = rows.x; y <= rows.y; y++) {
+        const ivec2 columns = columns_of(at, y);
+        for (int x = columns.x; x <= columns.y; x++) {
+            const block source = block_at(at, ivec2(x, y), kind);
+            const float radius = NEAR && to.behind ? max(source.radius, -to.own) : min(source.radius, cut_to);
+            vec2 weights = block_covers(source, radius, to.cut) /
+                           (3.14159265 * vec2(soft_area(radius, source.softs.x), soft_area(radius, source.softs.y)));
+            // What is near is filled in from single texels, so that something thin before a lamp does not dim it.
+            if (NEAR) {
+                const float apart = max(length(source.weight_apart), level_radius(0u));
+                weights *= nearness(vec2(apart, 0.0), source.radius, to.own);
+            }
+            sum.scene += weights.xxxy * source.light;
+            if (ON_SCENE)
+                sum.on += weights.y * block_on_scene(at, ivec2(x, y), kind);
+        }
+    }
+    return sum;
+}
+
+field_sum plus(field_sum a, field_sum b) { return field_sum(a.scene + b.scene, a.on + b.on); }
+
+// The far field of a texel, with weights.
+field_sum scene_behind(gatherer to, vec3 own_color)
+{
+    field_sum sum = gather_far(to);
+    for (int level = 1; level <= to.top; level++) {
+        const field_sum wide = gather_far_blocks(to, uint(level));
+        const float texels = float(1 << 2 * level); // a block keeps means
+        sum = plus(sum, field_sum(texels * wide.scene, texels * wide.on));
+    }
+    if (!to.beside)
         return sum;
     // From half a pixel on, its pixels are mixed with its own field, see compose.glsl.
-    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * POINT, POINT, abs(own.a)) : 1.0;
+    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * POINT, POINT, abs(to.own)) : 1.0;
     const float per_weight = sum.scene.a > 0.0 ? 1.0 / sum.scene.a : 0.0;
-    sum.scene = mix(sum.scene * per_weight, vec4(own.rgb, 1.0), share);
+    sum.scene = mix(sum.scene * per_weight, vec4(own_color, 1.0), share);
     if (ON_SCENE)
-        sum.on = mix(sum.on * per_weight, on_scene_mean(texel), share);
+        sum.on = mix(sum.on * per_weight, on_scene_mean(to.texel), share);
+    return sum;
+}
+
+// The near field, and its mean circle of confusion.
+field_sum scene_before(gatherer to, out float circle)
+{
+    float circle_sum = 0.0;
+    field_sum sum = gather_near(to, circle_sum);
+    for (int level = 1; level <= to.top; level++)
+        sum = plus(sum, gather_near_blocks(to, uint(level), circle_sum));
+    circle = sum.scene.a > 0.0 ? circle_sum / sum.scene.a : 0.0;
     return sum;
 }
 
@@ -146,13 +239,14 @@ void main()
         store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));
         return;
     }
-    const barrel cut = barrel_at(texel);
-    float circle_sum = 0.0;
+    const uint levels = uint(reach.a);
+    const gatherer to = gatherer(texel, own.a, reach.xy, levels, top_level(levels | levels >> 4), barrel_at(texel),
+                                 own.a < -POINT, HALVED && abs(own.a) <= POINT);
+    float near_circle = 0.0;
     field_sum near = field_sum(vec4(0.0), vec4(0.0));
     if (NEAR)
-        near = gather_near(texel, reach.x, cut, circle_sum);
-    const field_sum far = scene_behind(texel, own, reach.y, cut);
-    const float near_circle = near.scene.a > 0.0 ? circle_sum / near.scene.a : 0.0;
+        near = scene_before(to, near_circle);
+    const field_sum far = scene_behind(to, own.rgb);
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
     if (near.scene.a > 1.0 || far.scene.a == 0.0) {
         near.on /= near.scene.a;

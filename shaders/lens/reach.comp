@@ -1,6 +1,7 @@
 // reach.comp - how far each tile has to look for what reaches it: the largest circles of confusion, of each kind, of
 // all tiles from which such a disc can reach into it, or (at half resolution, where fields are read between texels)
-// into a texel beside it. At half resolution it also puts the tile into a list by what reaches it.
+// into a texel beside it; and the levels of blocks that those discs are in. At half resolution it also puts the tile
+// into a list by what reaches it.
 // One invocation per tile. Reads: tiles. Writes: reaches, lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -8,6 +9,7 @@
 #include "lens.glsl"
 #define LISTS_ACCESS
 #include "lists.glsl"
+#include "levels.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 9) readonly buffer Tiles { vec4 tiles[]; };
@@ -19,12 +21,24 @@ float gap(int tiles_apart) { return float(max(abs(tiles_apart) - 1, 0) * VIRGA_L
 const float MARGIN = HALVED ? 2.5 : 1.0; // texels: half of one is the soft edge of a disc
 
 // Up to sharp_reach nothing of the fields is seen, see compose.glsl; up to POINT there is no near field.
-uint kind_of(vec4 reach)
+uint kind_of(vec3 reach)
 {
     const float sharp_reach = 0.25; // texels: half a pixel
     if (reach.x > POINT)
         return VIRGA_LENS_TILES_BLURRED;
     return max(reach.x, reach.y) > sharp_reach ? VIRGA_LENS_TILES_FAR : VIRGA_LENS_TILES_SHARP;
+}
+
+// Those of a tile's levels of blocks whose discs reach so far.
+uint levels_that_reach(vec4 tile, float apart)
+{
+    uint near_enough = 0u;
+    for (uint group = 0u; group < 3u; group++)
+        for (uint level = 0u; level <= view.levels; level++) {
+            const float radius = min(group == 0u ? tile.y : group == 1u ? tile.x : tile.z, level_radius(level));
+            near_enough |= radius + MARGIN >= apart ? level_bit(group, level) : 0u;
+        }
+    return uint(tile.w) & near_enough;
 }
 
 void add_to_list(uint kind, uint tile)
@@ -45,14 +59,16 @@ void main()
     const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
     const ivec2 own = ivec2(gl_GlobalInvocationID.x % view.tile_columns, gl_GlobalInvocationID.x / view.tile_columns);
     const int most = int(view.max_radius) / VIRGA_LENS_TILE + 1;
-    vec4 reach = vec4(0.0);
+    vec3 reach = vec3(0.0);
+    uint levels = 0u;
     for (int y = max(own.y - most, 0); y <= min(own.y + most, size.y - 1); y++)
         for (int x = max(own.x - most, 0); x <= min(own.x + most, size.x - 1); x++) {
-            const vec4 radius = tiles[y * size.x + x];
-            const vec4 apart = vec4(length(vec2(gap(x - own.x), gap(y - own.y))));
-            reach = max(reach, radius * vec4(greaterThanEqual(radius + MARGIN, apart)));
+            const vec4 tile = tiles[y * size.x + x];
+            const float apart = length(vec2(gap(x - own.x), gap(y - own.y)));
+            reach = max(reach, tile.xyz * vec3(greaterThanEqual(tile.xyz + MARGIN, vec3(apart))));
+            levels |= levels_that_reach(tile, apart);
         }
-    reaches[gl_GlobalInvocationID.x] = reach;
+    reaches[gl_GlobalInvocationID.x] = vec4(reach, float(levels));
     if (HALVED)
         add_to_list(kind_of(reach), gl_GlobalInvocationID.x);
 }

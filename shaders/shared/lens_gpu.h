@@ -18,8 +18,29 @@ typedef struct virga_lens_list_gpu virga_lens_list_gpu;
 #define VIRGA_LENS_SPREADS    512 /* entries of the table of areas */
 #define VIRGA_LENS_LAYERS     5   /* layers over the scene at most */
 
+/* Wide discs come from blocks of 2, 4 and 8 texels along a side, see shaders/lens/levels.glsl. */
+#define VIRGA_LENS_FINE          8      /* texels, discs up to this radius come from single texels */
+#define VIRGA_LENS_LEVELS        3      /* of blocks */
+#define VIRGA_LENS_EDGE_VARIANCE 0.1022 /* of the soft edge of such discs, see shaders/lens/blocks.glsl */
+
+/* Kinds of blocks, and what is kept of each. */
+#define VIRGA_LENS_BLOCKS_FAR  0 /* behind the focus, of the level's radii */
+#define VIRGA_LENS_BLOCKS_NEAR 1 /* in front of the focus, of the level's radii */
+#define VIRGA_LENS_BLOCKS_ALL  2 /* all that is not in front of the focus */
+#define VIRGA_LENS_BLOCK_KINDS 3
+
+#define VIRGA_LENS_BLOCK_LIGHT    0 /* light and where it is, see shaders/lens/levels.glsl */
+#define VIRGA_LENS_BLOCK_ON_SCENE 1 /* light of the layer that lies on the scene */
+#define VIRGA_LENS_BLOCK_PARTS    2
+
 /* The image of the aperture, and below it rows with the areas. */
 #define VIRGA_LENS_AREA_ROWS 5 /* at least VIRGA_LENS_SPREADS / VIRGA_LENS_APERTURE */
+
+/* What the blocks pass is specialised for. */
+#define VIRGA_LENS_BLOCKS_SCENE    0
+#define VIRGA_LENS_BLOCKS_ON_SCENE 1 /* a layer lies on it */
+#define VIRGA_LENS_BLOCKS_LAYER    2 /* a layer in place of the scene */
+#define VIRGA_LENS_BLOCK_FORMS     3
 
 /* What a pass is specialised for: bits of its specialisation constant; the low ones are of the pass itself. */
 #define VIRGA_LENS_HALVED   256 /* half resolution */
@@ -62,6 +83,8 @@ struct virga_lens_gpu {
     uint step;              /* px along a texel's side: 1, or 2 at half resolution */
     float circle_px_m;      /* px m, radius of the circle of confusion at 1/m away from the focus */
     float max_radius;       /* texels */
+    uint levels;            /* of blocks that radii up to it need */
+    float edge_area;        /* what the soft edge of a block's disc adds to its area, see shaders/lens/levels.glsl */
     uint follow;            /* focus on what is at the focus point */
     uint focus_x;           /* px, focus point */
     uint focus_y;           /* px */
@@ -97,13 +120,13 @@ struct virga_lens_list_gpu {
     uint combine_x; /* the same of combine */
     uint combine_y;
     uint combine_z;
-    uint count; /* tiles */
-    uint padding;
+    uint count;  /* tiles */
+    uint levels; /* (of the first list) levels of blocks that any tile has */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 156 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 164 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif

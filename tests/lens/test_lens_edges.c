@@ -122,7 +122,7 @@ static void what_is_near_covers_a_layer_behind_it(void **state)
     assert_float_equal(lens_result(&f, 24, 24), 0.25, 1e-3);
     f.layer_depths_m[0] = 0.3f;
     lens_fixture_run(&f);
-    assert_float_equal(lens_result(&f, 24, 24), 5, 5e-3);
+    assert_float_equal(lens_result(&f, 24, 24), 5, 0.01); /* discs of blocks overlap to 0.2 %, see blocks.glsl */
     lens_fixture_close(&f);
 }
 

@@ -1,81 +1,6 @@
 /* test_lens_physical.c - the blur of a lens: against double precision on random pictures, the size and the light of the
  * discs that lamps become. */
-#include "lens_fixture.h"
-
-/* ---- the reference: shaders/lens in double precision, for one channel of a picture without layers */
-
-static double reach_of(const virga_lens_settings *settings, int x, int y)
-{
-    double edge = 1;
-    if (settings->blades) {
-        const double blade = 2 * M_PI / settings->blades;
-        const double angle = (x || y ? atan2(y, x) : 0) - (double)settings->blade_rotation_deg * M_PI / 180;
-        const double phi = angle - blade * floor(angle / blade + 0.5);
-        const double round = (double)settings->blade_roundness;
-        edge = cos(blade / 2) / cos(phi) * (1 - round) + round;
-    }
-    return hypot(x, y) / edge;
-}
-
-static double coverage(const virga_lens_settings *settings, int x, int y, double radius)
-{
-    return fmin(fmax(fmax(radius, 0.5) - reach_of(settings, x, y) + 0.5, 0), 1);
-}
-
-static double area(const virga_lens_settings *settings, double radius)
-{
-    const int around = (int)radius + 2;
-    double sum = 0;
-    for (int y = -around; y <= around; y++)
-        for (int x = -around; x <= around; x++)
-            sum += coverage(settings, x, y, radius);
-    return sum;
-}
-
-/* 10 px m, see lens_fixture_open. */
-static double circle(const lens_fixture *f, int x, int y)
-{
-    const double focus = f->settings.focus_m > 0 ? 1 / (double)f->settings.focus_m : 0;
-    const double radius = 10 * (focus - (double)f->scene.depth[y * (int)f->scene.width + x]);
-    return fmin(fmax(radius, -(double)f->settings.max_radius_px), (double)f->settings.max_radius_px);
-}
-
-static int inside(int at, uint32_t size)
-{
-    return at < 0 ? 0 : at >= (int)size ? (int)size - 1 : at;
-}
-
-static double reference(const lens_fixture *f, int x, int y)
-{
-    const double own = circle(f, x, y);
-    const int around = (int)f->settings.max_radius_px + 1;
-    double near = 0, near_weight = 0, far = 0, far_weight = 0;
-    for (int down = -around; down <= around; down++)
-        for (int right = -around; right <= around; right++) {
-            const int from_x = inside(x + right, f->scene.width), from_y = inside(y + down, f->scene.height);
-            const double radius = circle(f, from_x, from_y);
-            const double gray = (double)lens_pixel(&f->scene, (uint32_t)from_x, (uint32_t)from_y)[0];
-            if (radius < -0.5) {
-                const double covered = coverage(&f->settings, right, down, -radius);
-                const double weight = covered > 0 ? covered / area(&f->settings, -radius) : 0;
-                near += weight * gray;
-                near_weight += weight;
-            } else {
-                const double cut = own < -0.5 ? fmax(radius, -own) : fmin(radius, fmax(own, 0.5));
-                const double wide = fmax(cut, 0.5);
-                const double near_by = own < -0.5 ? fmin(pow(fmax(radius, 1) / hypot(right, down), 6), 1) : 1;
-                const double weight =
-                    near_by * coverage(&f->settings, -right, -down, cut) / (M_PI * (wide * wide + 1.0 / 12) + 0.1);
-                far += weight * gray;
-                far_weight += weight;
-            }
-        }
-    if (near_weight > 1 || !(far_weight > 0)) {
-        near /= near_weight;
-        near_weight = 1;
-    }
-    return near + (1 - near_weight) * (far_weight > 0 ? far / far_weight : 0);
-}
+#include "lens_reference.h"
 
 /* The table of areas, which the passes read between its entries. */
 static void areas_between_entries_of_the_table_are_within_a_thousandth_from_four_pixels_on(void **state)
@@ -92,7 +17,7 @@ static void areas_between_entries_of_the_table_are_within_a_thousandth_from_four
         const double from = pow(entry / 511.0, 2) * 63, to = pow((entry + 1) / 511.0, 2) * 63;
         const double part = (radius - from) / (to - from);
         const double between = (1 - part) * (double)areas[entry] + part * (double)areas[entry + 1];
-        const double error = fabs(between / area(&f.settings, radius) - 1);
+        const double error = fabs(between / lens_disc_area(&f.settings, radius) - 1);
         assert_true(error < (radius < 4 ? 0.012 : 1e-3));
     }
     lens_fixture_close(&f);
@@ -113,7 +38,7 @@ static void check_random_picture(uint32_t seed, uint32_t blades)
     lens_fixture_run(&f);
     for (uint32_t y = 0; y < f.scene.height; y++)
         for (uint32_t x = 0; x < f.scene.width; x++)
-            assert_float_equal(lens_result(&f, x, y), reference(&f, (int)x, (int)y), 3e-3);
+            assert_float_equal(lens_result(&f, x, y), lens_reference(&f, (int)x, (int)y), 3e-3);
     lens_fixture_close(&f);
 }
 

@@ -247,10 +247,15 @@ typedef struct copy_cost {
 
 #define COPY_BYTES (16 + 16 + 8.0) /* per pixel: color and layer of this bench are floats, the picture half floats */
 
-/* Texels that a gather reads for one of the work image: a disc of them, see row_reach in shaders/lens/aperture.glsl. */
-static double texels_of_disc(double radius)
+#define FINE_RADIUS 8 /* texels, VIRGA_LENS_FINE in shared/lens_gpu.h: wider discs come from blocks of texels */
+
+/* Texels, or blocks of them for wide discs, that a gather reads for one texel of the work image: see row_reach in
+ * shaders/lens/aperture.glsl and levels.glsl. */
+static double reads_of_disc(double radius)
 {
     double sum = 0;
+    while (radius > FINE_RADIUS)
+        radius /= 2;
     for (int y = (int)-ceil(radius); y <= (int)ceil(radius); y++)
         sum += 2 * floor(sqrt(fmax((radius + 1) * (radius + 1) - y * y, 0))) + 1;
     return sum;
@@ -259,19 +264,21 @@ static double texels_of_disc(double radius)
 /* A model, not a measurement: bytes that the passes of the physical style move from and to memory for each pixel. A
  * pass moves each texel that it reads once, as neighbours find it in a cache: a tile's discs of 20 texels are 56 x 56
  * samples, which are 50 kB. Depth has 4 bytes, samples and spreads 16, a field 8. All of the scene is blurred and
- * behind the focus; the layer is sharp. At full resolution passes read both fields and the spreads. */
-static double model_bytes(const lens_case *row)
+ * behind the focus; the layer is sharp. Blocks of 16 bytes are written and read once, a quarter of the texels or less.
+ * At full resolution passes read both fields and the spreads. */
+static double model_bytes(const lens_case *row, const pictures *p)
 {
     const double texels = row->half_resolution ? 0.25 : 1; /* of the work image, per pixel */
     const double near = row->half_resolution ? 0 : 1;      /* half resolution leaves out what no near tile needs */
     if (row->radius_share <= 0)
         return COPY_BYTES;
     const double sample = 16 + 4 + texels * (16 + 16), tiles = texels * 16;
+    const double blocks = row->radius_share * p->height * sqrt(texels) > FINE_RADIUS ? texels * (32 + 2 * 4 + 4) : 0;
     const double gather = texels * (16 + near * 16 + 2 * 8), combine = COPY_BYTES + 4 + texels * (8 + near * 8);
-    return sample + tiles + gather + combine;
+    return sample + tiles + blocks + gather + combine;
 }
 
-static const char *const pass_names[] = {"paper", "sample", "tiles", "gather", "layers", "combine"};
+static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "gather", "layers", "combine"};
 #define PASSES (sizeof pass_names / sizeof *pass_names)
 
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */
@@ -294,9 +301,9 @@ static void print_costs(const lens_case *row, const pictures *p, double worked, 
     if (row->radius_share <= 0 && copy->worked <= 0)
         copy->worked = worked;
     printf("  %-16s %10.1f x a copy of the same, processors; by a model %.0f bytes a pixel, %.1f x a copy", "",
-           worked / copy->worked, model_bytes(row), model_bytes(row) / COPY_BYTES);
+           worked / copy->worked, model_bytes(row, p), model_bytes(row, p) / COPY_BYTES);
     if (row->radius_share > 0)
-        printf(", and %.0f texels of discs", texels * texels_of_disc(row->radius_share * p->height * sqrt(texels)));
+        printf(", and %.0f reads of discs", texels * reads_of_disc(row->radius_share * p->height * sqrt(texels)));
     printf("\n");
 }
 

@@ -40,7 +40,7 @@ typedef struct virga_lens virga_lens; /* opaque */
 typedef struct virga_lens_def {
     uint32_t size, cookie;
 
-    /* [16; 16384] largest viewport in pixels. Memory: 96 bytes per pixel, or 30 at half resolution. Default 1920 and
+    /* [16; 16384] largest viewport in pixels. Memory: 132 bytes per pixel, or 39 at half resolution. Default 1920 and
      * 1080. */
     uint32_t max_width, max_height;
 
@@ -111,7 +111,8 @@ typedef struct virga_lens_settings {
     float cats_eye;
 
     /* [1; 126] largest radius of a circle of confusion (px); larger ones are cut to it. At full resolution at most 63.
-     * The cost grows as its square where there is such blur. Default 32. */
+     * The cost grows as the square of a circle up to 8 texels of the work image (px, or 2 px at half resolution); wider
+     * ones come from blocks of texels and cost about the same at any size. Default 32. */
     float max_radius_px;
 
     /* (paper) [0; 1e6] difference to the depth at focus (m) from which on the weaker filter is used, and the stronger
