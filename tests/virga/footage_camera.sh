@@ -74,6 +74,12 @@ printf '%s\n' '1 0 0 5 0 1 0 0 0 0 1 7' '1 0 0 5 0 1 0 0 0 0 1 8' '1 0 0 5 0 1 0
 scene 'poses: {file: poses.txt}, height_m: 1.25'
 render poses --frames 3
 is_at poses/frame.0003.exr 0,1.25,-2
+# Those of KITTI are of camera 0, and camera 3 is half a metre to the right.
+printf 'P0: 48 0 31.5 0 0 48 23.5 0 0 0 1 0\nP3: 48 0 31.5 -24 0 48 23.5 0 0 0 1 0\n' >"$work/calib.txt"
+scene 'poses: {file: poses.txt}, height_m: 1.25, calibration: {file: calib.txt, camera: "3"}'
+VIRGA_VALIDATE=0 render beside --frames 3
+is_at beside/frame.0003.exr 0.5,1.25,-2
+scene 'poses: {file: poses.txt}, height_m: 1.25'
 echo '1 0 0 5 0 1' >>"$work/poses.txt"
 for command in "check $work/rain.yaml" "render $work/rain.yaml -o $work/refused --device $device"; do
     # shellcheck disable=SC2086

@@ -39,5 +39,6 @@ bool scene_calibration_read(scene_file *scene, char *error, size_t error_size)
     memcpy(to->focal_px, from.focal_px, sizeof to->focal_px);
     memcpy(to->center_px, from.center_px, sizeof to->center_px);
     memcpy(to->distortion, from.distortion, sizeof to->distortion);
+    to->right_m = from.right_m;
     return scene_camera_check_lens(scene, error, error_size);
 }

@@ -78,6 +78,7 @@ typedef struct scene_calibration {
     double focal_px[2];   /* 0, 0: not calibrated */
     double center_px[2];  /* from the middle of the upper left pixel; 0, 0: the middle of the picture */
     double distortion[5]; /* k1 k2 p1 p2 k3, see distortion.h; all 0: the lens bends nothing */
+    double right_m;       /* no key: (file of KITTI) how far it is to the right of camera 0, whose poses KITTI has */
 } scene_calibration;
 
 /* Where a camera was, from a file; see camera_poses.h. */

@@ -110,6 +110,11 @@ static bool pose_keys(const scene_file *scene, host_camera_key **keys, uint32_t 
     if (!camera_poses_read(&def, &poses, &read, reason, sizeof reason))
         return scene_file_refuse(scene, "camera.poses.file", error, error_size, "%s", reason);
     *keys = malloc((read + 1) * sizeof **keys);
+    /* Rectified cameras of KITTI look the same way, and its poses are those of camera 0. */
+    const double right_m = from->format == CAMERA_POSES_KITTI ? camera->calibration.right_m : 0;
+    for (uint32_t i = 0; i < read; i++)
+        for (int axis = 0; axis < 3; axis++)
+            poses[i].position_m[axis] += right_m * poses[i].axes[0][axis];
     for (uint32_t i = 0; *keys && i < read; i++)
         (*keys)[i + 1] = host_camera_key_of_axes(poses[i].time_s, poses[i].position_m, poses[i].axes);
     free(poses);
