@@ -114,6 +114,31 @@ averages |
            exit !(NF == 4 && $1 < 0.5 * $2 && $3 < 0.5 * $4 && $2 < 1.2 * $4 && $2 > 0.8 * $4) }' ||
     fail "the box is not mirrored, or the road is not as bright as the scene's"
 
+# ---- a camera that turns and moves on: the ground that it sees last is wet, too
+turned='{fov_deg: 50, keys: [{position_m: [0, 1.5, 0], look_at_m: [0, 1.2, -5]},
+    {time_s: 0.2, position_m: [2.5, 1.5, -1], look_at_m: [6.5, 1.2, -3]}]}'
+for name in world road; do
+    CAMERA=$turned awk '/^camera:/ { print "camera: " ENVIRON["CAMERA"]; next } { print }' "$work/$name.yaml" \
+        >"$work/$name.turned.yaml"
+done
+small=(--size 96x54 --set rain.rate_mm_h=0 --set splash.on=false)
+draw world.turned turned --layers beauty,depth,wetness "${small[@]}"
+draw road.turned seen --plate "$work/turned/frame.%04d.exr" --depth "$work/turned/frame.%04d.exr" --frames 6 \
+    --layers wetness --set footage.ground=depth "${small[@]}"
+for name in turned seen; do
+    oiiotool "$work/$name/frame.0006.exr" --ch wetness.Y -d float -o "$work/v.exr" &&
+        oiiotool --dumpdata "$work/v.exr" >"$work/$name.txt" || fail "reading $name"
+done
+python3 - "$work" <<'PY' || fail "ground that the first frame does not show is dry"
+import re, sys
+wanted, has = ([float(v) for v in re.findall(r"\): (\S+)", open("%s/%s.txt" % (sys.argv[1], name)).read())]
+               for name in ("turned", "seen"))
+wet = [i for i in range(len(wanted)) if wanted[i] > 0.3 and i // 96 >= 28] # below the horizon, where grids are coarse
+found = sum(has[i] > 0.3 for i in wet)
+print("wet: %d of %d pixels" % (found, len(wet)))
+sys.exit(len(wet) < 1000 or found < 0.95 * len(wet))
+PY
+
 # ---- checkpoints belong to a mask
 render_saved() {
     VIRGA_VALIDATE=0 draw road saved --plate "$work/plate/frame.0001.exr" --set rain.max_drops=1024 \

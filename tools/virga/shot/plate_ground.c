@@ -18,10 +18,11 @@ enum {
     MAX_FRAMES = 64, /* of a camera that moves: of so many the grids are put together */
 };
 
-#define APART_M    2.0  /* and so far it has moved in between */
-#define RANGE_M    80.0 /* ground is not farther away than that */
-#define PLANE_M    2000 /* half the side of the plane that is drawn wet */
-#define BORDER     1.2  /* the grid is larger than the picture by that */
+#define APART_M    2.0    /* and so far it has moved in between, */
+#define APART_COS  0.9976 /* or so far it has turned: 4 degrees, less than the border shows */
+#define RANGE_M    80.0   /* ground is not farther away than that */
+#define PLANE_M    2000   /* half the side of the plane that is drawn wet */
+#define BORDER     1.2    /* the grid is larger than the picture by that */
 #define NEAR_M     0.5f
 #define STEP_SHARE 1.25 /* neighbors whose depths differ by more are not of one surface */
 
@@ -210,18 +211,111 @@ static bool add_frame(const shot *s, const host_camera *camera, grid *g)
     return true;
 }
 
-/* All that is seen of the ground: in the scene's first frame, and on a plane also in others, as the camera moves on. */
+/* ---- depths of several frames: each place of the ground has that of the frame that saw it from nearest */
+
+#define CELL_M 0.25
+
+/* What one frame has added. */
+typedef struct part {
+    uint32_t first, end; /* of its indices */
+    double camera_m[3];
+} part;
+
+/* A cell of the ground from above, in a table with open addressing. */
+typedef struct cell {
+    int32_t x, z;
+    uint32_t owner; /* a part; UINT32_MAX: the entry is free */
+    double distance_m;
+} cell;
+
+typedef struct cells {
+    cell *entries;
+    size_t mask; /* entries - 1; a power of two */
+} cells;
+
+static cell *find_cell(const cells *all, int32_t x, int32_t z)
+{
+    size_t at = ((uint32_t)x * 2654435761u ^ (uint32_t)z * 2246822519u) & all->mask;
+    while (all->entries[at].owner != UINT32_MAX && (all->entries[at].x != x || all->entries[at].z != z))
+        at = (at + 1) & all->mask;
+    return &all->entries[at];
+}
+
+/* The cell of a triangle's middle, and how far that is from the camera of its frame. */
+static cell *cell_of(const cells *all, const grid *g, const part *of, const uint32_t *corners, double *distance_m)
+{
+    double square = 0, middle[3];
+    for (int axis = 0; axis < 3; axis++) {
+        middle[axis] = 0;
+        for (int i = 0; i < 3; i++)
+            middle[axis] += (double)g->vertices[corners[i]].position[axis] / 3;
+        square += (middle[axis] - of->camera_m[axis]) * (middle[axis] - of->camera_m[axis]);
+    }
+    *distance_m = sqrt(square);
+    cell *found = find_cell(all, (int32_t)floor(middle[0] / CELL_M), (int32_t)floor(middle[2] / CELL_M));
+    if (found->owner == UINT32_MAX)
+        *found = (cell){.x = (int32_t)floor(middle[0] / CELL_M),
+                        .z = (int32_t)floor(middle[2] / CELL_M),
+                        .owner = UINT32_MAX,
+                        .distance_m = INFINITY};
+    return found;
+}
+
+/* Far away a picture's depth is coarse, and two frames do not agree. False: no memory. */
+static bool keep_nearest(grid *g, const part *parts, uint32_t count)
+{
+    size_t room = 1024;
+    while (room < g->index_count) /* three times as many as there are triangles */
+        room *= 2;
+    const cells all = {.entries = malloc(room * sizeof *all.entries), .mask = room - 1};
+    if (!all.entries)
+        return false;
+    for (size_t i = 0; i < room; i++)
+        all.entries[i].owner = UINT32_MAX;
+    double distance_m;
+    for (uint32_t p = 0; p < count; p++)
+        for (uint32_t i = parts[p].first; i < parts[p].end; i += 3) {
+            cell *at = cell_of(&all, g, &parts[p], g->indices + i, &distance_m);
+            if (at->owner != UINT32_MAX && at->distance_m <= distance_m)
+                continue;
+            at->owner = p;
+            at->distance_m = distance_m;
+        }
+    uint32_t kept = 0;
+    for (uint32_t p = 0; p < count; p++)
+        for (uint32_t i = parts[p].first; i < parts[p].end; i += 3)
+            if (cell_of(&all, g, &parts[p], g->indices + i, &distance_m)->owner == p) {
+                memmove(g->indices + kept, g->indices + i, 3 * sizeof *g->indices);
+                kept += 3;
+            }
+    g->index_count = kept;
+    free(all.entries);
+    return true;
+}
+
+/* Whether two cameras see nearly the same ground. */
+static bool is_near(const host_camera *a, const host_camera *b)
+{
+    double square = 0, cosine = 0;
+    for (int i = 0; i < 3; i++) {
+        square += (a->position_m[i] - b->position_m[i]) * (a->position_m[i] - b->position_m[i]);
+        cosine += (double)a->view_from_world[4 * i + 2] * (double)b->view_from_world[4 * i + 2];
+    }
+    return square < APART_M * APART_M && cosine > APART_COS;
+}
+
+/* All that is seen of the ground, in the scene's first frame and in others, as the camera moves on. */
 static bool gather_frames(shot *s, grid *g, char *error, size_t error_size)
 {
     const scene_frames *frames = &s->scene->frames;
-    const bool all = footage_of(s)->ground == SCENE_FOOTAGE_GROUND_PLANE;
-    double last_m[3] = {INFINITY, 0, 0};
+    const bool by_depth = footage_of(s)->ground == SCENE_FOOTAGE_GROUND_DEPTH;
+    host_camera last = {.width = 0};
+    part parts[MAX_FRAMES];
     uint32_t taken = 0;
-    for (uint32_t frame = frames->first; frame <= (all ? frames->last : frames->first) && taken < MAX_FRAMES; frame++) {
+    for (uint32_t frame = frames->first; frame <= frames->last && taken < MAX_FRAMES; frame++) {
         host_camera camera;
         shot_camera(s, shot_time(s, frame), 0, NULL, &camera);
-        const double *m = camera.position_m;
-        if (taken && hypot(hypot(m[0] - last_m[0], m[1] - last_m[1]), m[2] - last_m[2]) < APART_M)
+        if (taken && is_near(&camera, &last))
             continue;
         if (!plate_has(s->plate, frame)) {
             if (taken)
@@ -231,13 +325,17 @@ static bool gather_frames(shot *s, grid *g, char *error, size_t error_size)
             return shot_blame_input(s, false);
         }
         if (!load_mask(s, frame, error, error_size) ||
-            (!all && !shot_blame_input(s, plate_load(s->plate, frame, error, error_size))))
+            (by_depth && !shot_blame_input(s, plate_load(s->plate, frame, error, error_size))))
             return false;
+        parts[taken].first = g->index_count;
         if (!add_frame(s, &camera, g))
             return host_fail(error, error_size, "no memory for the ground of a plate");
-        memcpy(last_m, m, sizeof last_m);
-        taken++;
+        parts[taken].end = g->index_count;
+        memcpy(parts[taken++].camera_m, camera.position_m, sizeof camera.position_m);
+        last = camera;
     }
+    if (by_depth && taken > 1 && !keep_nearest(g, parts, taken))
+        return host_fail(error, error_size, "no memory for the ground of a plate");
     if (!g->index_count) {
         scene_file_refuse(s->scene, "footage.ground", error, error_size,
                           "expected ground within %g m in the picture, found none", RANGE_M);
