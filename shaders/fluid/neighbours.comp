@@ -97,32 +97,21 @@ float add_bodies(uint i, vec3 p, inout BoxWalls wall, inout Weight weight)
     return yielding;
 }
 
-void main()
+// Lists the neighbours of a particle, four in a texel; the last texel is filled up with the particle itself. Returns
+// their number. Seven of eight particles in the cells around are too far away, so nothing else is done here: lanes of a
+// group would wait for each other.
+uint list_neighbours(uint i, vec3 here)
 {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= grid.sorted)
-        return;
-    const vec4 place = place_at(i);
-    const vec3 here = place.xyz;
     const uvec3 dims = grid_dims();
     const uint cell = cell_at(to_vec(particles[sorted_indices[i]].position));
-    float density = 0.0, squares = 0.0;
-    vec3 sum = vec3(0.0), rise = vec3(0.0);
     uvec4 four = uvec4(i);
     uint count = 0u;
     for (uint row = 0u; row < 9u; row++) {
         const uvec2 run = neighbour_row(cell, row, dims);
         for (uint j = run.x; j < run.y; j++) {
-            const vec4 other = place_at(j);
-            const vec3 apart = here - other.xyz;
-            const float r2 = dot(apart, apart);
-            if (r2 >= 4.0 || j == i || count >= 4u * VIRGA_FLUID_LIST_TEXELS)
+            const vec3 apart = here - place_at(j).xyz;
+            if (dot(apart, apart) >= 4.0 || j == i || count >= 4u * VIRGA_FLUID_LIST_TEXELS)
                 continue;
-            const float s = slope(r2);
-            density += kernel(sqrt(r2));
-            sum += s * apart;
-            rise += ((other.w - place.w) * s) * apart;
-            squares += s * s * r2;
             four = uvec4(four.yzw, j);
             count++;
             if ((count & 3u) == 0u) {
@@ -131,9 +120,48 @@ void main()
             }
         }
     }
-    // The last ones, filled up with the particle itself, whose gradient is 0.
     if ((count & 3u) != 0u)
         lists[count / 4u * frame.stride + i] = four;
+    return count;
+}
+
+vec4 place;
+float density, squares;
+vec3 sum, rise;
+
+void add(uint i, uint j)
+{
+    const vec4 other = place_at(j);
+    const vec3 apart = place.xyz - other.xyz;
+    const float r2 = dot(apart, apart), s = slope(r2); // 0 for the particle itself
+    density += j == i ? 0.0 : kernel(sqrt(r2));
+    sum += s * apart;
+    rise += ((other.w - place.w) * s) * apart;
+    squares += s * s * r2;
+}
+
+void add_neighbours(uint i, uint texels)
+{
+    density = squares = 0.0;
+    sum = rise = vec3(0.0);
+    for (uint t = 0u, at = i; t < texels; t++, at += frame.stride) {
+        const uvec4 four = lists[at];
+        add(i, four.x);
+        add(i, four.y);
+        add(i, four.z);
+        add(i, four.w);
+    }
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= grid.sorted)
+        return;
+    place = place_at(i);
+    const vec3 here = place.xyz;
+    const uint texels = (list_neighbours(i, here) + 3u) / 4u;
+    add_neighbours(i, texels);
     const vec3 low = to_vec(frame.low_m) * frame.inv_spacing_m, high = to_vec(frame.high_m) * frame.inv_spacing_m;
     BoxWalls wall = box_walls(here, low, high);
     Weight weight = Weight(to_vec(frame.gravity_m_s2), KERNEL_FACTOR * frame.inv_spacing_m * rise, share_at(place.w));
@@ -145,6 +173,6 @@ void main()
     const float inverse = dot(sum, sum) + KERNEL_FACTOR * KERNEL_FACTOR * squares + yielding;
     walls[i] = vec4(wall.gradient, inverse > 1e-6 ? 1.0 / inverse : 0.0);
     velocities[i] = vec4(weight.gravity, KERNEL_SELF + density + wall.density);
-    sorted[i] = vec4(here, float((count + 3u) / 4u));
+    sorted[i] = vec4(here, float(texels));
     moved[i].w = wall.pull;
 }
