@@ -160,7 +160,8 @@ refuses "--layout: expected kitti-raw or cityscapes, got 'kitti'" in --layout ki
 refuses '--depth: no empty/a.npy' in --depth empty
 refuses 'footage.ground: expected none' in --set footage.ground=plane
 refuses 'image_0N/data/NUMBER.png' in --layout kitti-raw
-cp "$work/in/a.png" "$work/in/c.jpg"
+cp "$work/in/a.png" "$work/in/a.k.png"
+cp "$work/in/a.png" "$work/in/a.tif"
 refuses 'expected names that differ before the ending' in
 
 [ $failures -eq 0 ] && echo "all is right"

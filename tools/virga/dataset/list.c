@@ -108,9 +108,15 @@ static bool find_depth(const walk *w, dataset_picture *p)
 
 /* ---- all */
 
+/* Without the ending first, so that those that differ in it alone are beside each other. */
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(((const dataset_picture *)a)->name, ((const dataset_picture *)b)->name);
+    const char *one = ((const dataset_picture *)a)->name, *other = ((const dataset_picture *)b)->name;
+    const size_t stems[2] = {(size_t)(strrchr(one, '.') - one), (size_t)(strrchr(other, '.') - other)};
+    const int order = strncmp(one, other, stems[0] < stems[1] ? stems[0] : stems[1]);
+    if (order || stems[0] != stems[1])
+        return order ? order : stems[0] < stems[1] ? -1 : 1;
+    return strcmp(one + stems[0], other + stems[1]);
 }
 
 /* Two pictures with the same name but for the ending would have the same files of masks and boxes. */
@@ -120,7 +126,7 @@ static bool check_names(const walk *w)
     for (uint32_t i = 1; i < list->count; i++) {
         const char *a = list->pictures[i - 1].name, *b = list->pictures[i].name;
         const size_t stem = (size_t)(strrchr(a, '.') - a);
-        if (!strncmp(a, b, stem) && b[stem] == '.' && !strchr(b + stem + 1, '.') && !strchr(b + stem, '/'))
+        if (stem == (size_t)(strrchr(b, '.') - b) && !strncmp(a, b, stem))
             return host_fail(w->error, w->error_size, "%s and %s: expected names that differ before the ending",
                              list->pictures[i - 1].path, list->pictures[i].path);
     }
