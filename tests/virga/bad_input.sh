@@ -167,11 +167,12 @@ ground:
     materials: [tile, drain]
 YAML
 
-# map NAME TEXT SED-SCRIPT: the scene with a map, spoiled, is refused with the same line whoever reads it.
+# map NAME TEXT SED-SCRIPT: the scene with a map, spoiled, is refused with the same line whoever reads it, and before a
+# device is looked for.
 map() {
     local command
     sed "$3" "$work/mapped.yaml" >"$work/bad.yaml"
-    for command in check "render -o $work/out"; do
+    for command in check "render --device none -o $work/out"; do
         bad "$1, ${command%% *}" $command "$work/bad.yaml"
         says "$1, ${command%% *}" "bad.yaml:$2"
     done

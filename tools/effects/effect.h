@@ -206,7 +206,9 @@ typedef struct tool_effect {
 
     /* Checks what the schema can not express. Reports errors by scene_file_refuse. */
     bool (*check)(const scene_file *scene, char *error, size_t error_size);
-    /* Reads the files that its keys name, and prints a line for each. */
+    /* Reads the pictures that its keys name: small files, for a shot that is about to begin. */
+    bool (*check_pictures)(const scene_file *scene, char *error, size_t error_size);
+    /* (virga check) Reads all files that its keys name, and prints a line for each. */
     bool (*check_files)(const scene_file *scene, char *error, size_t error_size);
     void (*print)(const scene_file *scene);
 

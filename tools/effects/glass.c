@@ -564,6 +564,7 @@ const tool_effect glass_effect = {
     .scene = {.group = SCENE_GROUP(scene_glass, glass_section), .check = check_panes},
     TOOL_USED_IF(is_used, "panes; expected a list of them, glass"),
     .check = glass_check,
+    .check_pictures = glass_check_pictures,
     .check_files = glass_check_files,
     .apply = glass_apply,
     .fill_frame = fill_frame,

@@ -156,6 +156,15 @@ static bool read_material_map(const scene_file *scene, uint32_t *width, uint32_t
     return true;
 }
 
+static bool check_pictures(const scene_file *scene, char *error, size_t error_size)
+{
+    uint32_t width, height;
+    uint8_t *texels;
+    const bool good = read_material_map(scene, &width, &height, &texels, error, error_size);
+    free(texels);
+    return good;
+}
+
 static bool check_files(const scene_file *scene, char *error, size_t error_size)
 {
     uint32_t width, height;
@@ -432,6 +441,7 @@ const tool_effect ground_effect = {
     .scene = {.group = SCENE_GROUP(scene_ground, ground_section), .check = check_material_map},
     TOOL_USED_IF(is_used, "ground; expected ground.on: true"),
     .check = check,
+    .check_pictures = check_pictures,
     .check_files = check_files,
     .mark_mesh = mark_mesh,
     .resize = resize,

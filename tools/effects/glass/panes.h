@@ -47,6 +47,7 @@ bool glass_apply(shot *s, void *state, double time_s, char *error, size_t error_
 
 /* ---- shape.c: shapes and pictures */
 
+bool glass_check_pictures(const scene_file *scene, char *error, size_t error_size);
 bool glass_check_files(const scene_file *scene, char *error, size_t error_size);
 
 /* Fills pane->positions, columns and rows, and gives the library the pane's shape. */

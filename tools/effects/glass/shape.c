@@ -71,7 +71,7 @@ static bool read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns,
     return *mask || host_fail(error, error_size, "no memory for %s", glass->panes[pane].mask);
 }
 
-static bool check_pane(const scene_file *scene, uint32_t pane, char *error, size_t error_size)
+static bool check_pane(const scene_file *scene, uint32_t pane, bool say, char *error, size_t error_size)
 {
     const scene_pane *from = &scene_glass_of(scene)->panes[pane];
     uint32_t columns, rows;
@@ -79,12 +79,12 @@ static bool check_pane(const scene_file *scene, uint32_t pane, char *error, size
     uint8_t *mask = NULL;
     if (!read_bumps(scene, pane, &columns, &rows, &bumps, error, error_size))
         return false;
-    if (bumps)
+    if (bumps && say)
         printf("  bumps        %s: %u x %u\n", from->bumps.file, columns, rows);
     free(bumps);
     if (!read_mask(scene, pane, &columns, &rows, &mask, error, error_size))
         return false;
-    if (mask)
+    if (mask && say)
         printf("  mask         %s: %u x %u\n", from->mask, columns, rows);
     free(mask);
     return true;
@@ -93,7 +93,15 @@ static bool check_pane(const scene_file *scene, uint32_t pane, char *error, size
 bool glass_check_files(const scene_file *scene, char *error, size_t error_size)
 {
     for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++)
-        if (!check_pane(scene, i, error, error_size))
+        if (!check_pane(scene, i, true, error, error_size))
+            return false;
+    return true;
+}
+
+bool glass_check_pictures(const scene_file *scene, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++)
+        if (!check_pane(scene, i, false, error, error_size))
             return false;
     return true;
 }

@@ -129,11 +129,20 @@ static bool open_distortion(shot *s, char *error, size_t error_size)
     return shot_distortion_open(s->distortion, &map, error, error_size);
 }
 
+static bool check_pictures(const scene_file *scene, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->check_pictures && !tool_effects[i]->check_pictures(scene, error, error_size))
+            return false;
+    return true;
+}
+
 static bool check_input(shot *s, char *error, size_t error_size)
 {
     return shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
                                    check_aspect(s, error, error_size) && open_distortion(s, error, error_size) &&
-                                   shot_check_scene(s->scene, error, error_size) && open_plate(s, error, error_size) &&
+                                   shot_check_scene(s->scene, error, error_size) &&
+                                   check_pictures(s->scene, error, error_size) && open_plate(s, error, error_size) &&
                                    plate_ground_open(s, error, error_size));
 }
 
