@@ -79,6 +79,7 @@ static void print(const scene_file *scene)
 /* ---- virga bench ---------------------------------------------------------------------------------------------- */
 
 #define DROPS    1000 /* on the layer, as in the paper's picture */
+#define RUNS     41   /* of a case: a small picture takes as long as a wake of a thread may */
 #define ENOUGH_S 6.0  /* fewer runs are enough after it */
 
 typedef struct lens_case {
@@ -193,8 +194,8 @@ static virga_view view_of(const pictures *p)
 /* ---- measuring */
 
 typedef struct frame_times {
-    double waited[BENCH_RUNS]; /* ms, of submitting and waiting */
-    double worked[BENCH_RUNS]; /* ms, that all threads worked, which other programs on the machine hardly change */
+    double waited[RUNS]; /* ms, of submitting and waiting */
+    double worked[RUNS]; /* ms, that all threads worked, which other programs on the machine hardly change */
 } frame_times;
 
 static double worked_ms(void)
@@ -282,7 +283,7 @@ static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "
 #define PASSES (sizeof pass_names / sizeof *pass_names)
 
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */
-static void print_passes(double times[PASSES][BENCH_RUNS], size_t runs)
+static void print_passes(double times[PASSES][RUNS], size_t runs)
 {
     printf("  %-16s ", "");
     for (size_t i = 0; i < PASSES; i++) {
@@ -312,7 +313,7 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens = NULL;
     frame_times times, empty;
-    double passes[PASSES][BENCH_RUNS];
+    double passes[PASSES][RUNS];
     def.max_width = p->width;
     def.max_height = p->height;
     def.half_resolution = row->half_resolution;
@@ -321,7 +322,7 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
                 time_frame(b, lens, p, &times, 0);
     const double start = progress_now();
     size_t runs = 0;
-    while (good && runs < BENCH_RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
+    while (good && runs < RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
         good = time_frame(b, NULL, p, &empty, runs) && time_frame(b, lens, p, &times, runs);
         for (size_t i = 0; i < PASSES; i++) {
             char name[32];
