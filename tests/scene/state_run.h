@@ -3,9 +3,8 @@
 #define VIRGA_TESTS_STATE_RUN_H
 
 #include "../gpu/gpu_fixture.h"
+#include "../host/wrong_words.h"
 #include "host_parts.h"
-
-enum { HEADER = 64 }; /* bytes of the head of a state */
 
 typedef struct state_run {
     gpu_fixture *f;

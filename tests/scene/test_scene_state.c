@@ -10,7 +10,7 @@ enum { SAVED_AT = 7, FRAMES = 16 };
 static void assert_same_state(const void *a, const void *b, VkDeviceSize size)
 {
     const unsigned char *x = a, *y = b;
-    for (VkDeviceSize i = HEADER; i < size; i++)
+    for (VkDeviceSize i = STATE_HEADER; i < size; i++)
         if (x[i] != y[i])
             fail_msg("byte %llu of %llu differs: %u and %u", (unsigned long long)i, (unsigned long long)size, x[i],
                      y[i]);
@@ -131,7 +131,7 @@ static void a_damaged_or_cut_state_is_refused(void **state)
     assert_refused(&run, &run.blob, run.blob.size - 16, "of which");
     assert_refused(&run, &run.blob, 40, "not a saved state");
     for (uint32_t i = 0; i < 20; i++) {
-        const uint32_t at = HEADER + virga_hash2(7, i) % (uint32_t)(run.blob.size - HEADER);
+        const uint32_t at = STATE_HEADER + virga_hash2(7, i) % (uint32_t)(run.blob.size - STATE_HEADER);
         bytes[at] ^= 1u << i % 8;
         assert_refused(&run, &run.blob, run.blob.size, "is damaged");
         bytes[at] ^= 1u << i % 8;
@@ -150,7 +150,7 @@ typedef struct section {
 
 static void find_section(const host_buffer *blob, const char *name, uint32_t **last_row, uint32_t **device)
 {
-    char *at = (char *)blob->mapped + HEADER;
+    char *at = (char *)blob->mapped + STATE_HEADER;
     for (const char *end = (char *)blob->mapped + blob->size; at < end;) {
         const section *here = (const section *)at;
         char *host = at + sizeof *here + ((here->def_values + here->setting_values) * sizeof(double) + 15) / 16 * 16;

@@ -3,29 +3,9 @@
  * Usage: scene-state-fuzz [NUMBER [FIRST]]: so many states, numbered from FIRST on. */
 #include "state_run.h"
 
-#include <virga/shared/random.h>
-
 enum { SAVED_AT = 7 };
 
 static uint32_t number = 10, first_number;
-
-/* Values that break what they are used for: indices, counts, floats, signs. */
-static uint32_t wrong_word(uint32_t old, uint32_t hash)
-{
-    const uint32_t values[8] = {UINT32_MAX, 0x7fc00000u, 0x7f800000u, 0x80000000u,
-                                old + 1,    old - 1,     old << 9,    virga_hash1(hash)};
-    return hash >> 3 & 1 ? values[hash & 7] : old ^ 1u << (hash >> 4 & 31);
-}
-
-/* Half of them in the first words of a part, where the counts are: after a word that is 0, or a part's end, it goes
- * back to the beginning of what is not 0. */
-static VkDeviceSize place(const uint32_t *words, VkDeviceSize count, uint32_t hash)
-{
-    VkDeviceSize at = HEADER / 4 + virga_hash1(hash) % (count - HEADER / 4);
-    for (uint32_t i = 0; (hash & 1) && i < 4096 && at > HEADER / 4 && (words[at - 1] || words[at - 2]); i++)
-        at--;
-    return at;
-}
 
 /* Plays two frames from the state that the buffer holds; false: it is refused. A step may refuse what it finds, too. */
 static bool go_on(state_run *run, const host_buffer *blob)
@@ -62,11 +42,7 @@ static void wrong_contents_do_no_harm(void **state)
     for (uint32_t i = first_number; i < first_number + number; i++) {
         uint32_t *words = wrong.mapped;
         memcpy(words, whole.mapped, whole.size);
-        for (uint32_t k = 0; k <= virga_hash2(i, 0) % 4; k++) {
-            const uint32_t hash = virga_hash2(i, 1 + k);
-            const VkDeviceSize at = place(words, whole.size / 4, hash);
-            words[at] = wrong_word(words[at], virga_hash1(hash + 1));
-        }
+        wrong_words(words, whole.size, i);
         REQUIRE(virga_state_seal(words, wrong.size, frame, NULL) == VIRGA_OK);
         refused += !go_on(&run, &wrong);
     }
