@@ -77,20 +77,13 @@ static uint32_t level_size(uint32_t texels, uint32_t level)
     return (((texels + (1u << level) - 1) >> level) + 2 + 7) & ~7u;
 }
 
-void lens_blocks_size(uint32_t columns, uint32_t rows, uint32_t *width, uint32_t *height)
-{
-    const uint32_t below = level_size(columns, 2) + level_size(columns, 3);
-    *width = level_size(columns, 1) > below ? level_size(columns, 1) : below;
-    *height = level_size(rows, 1) + level_size(rows, 2);
-}
-
+/* The image of blocks, see shaders/lens/levels.glsl. */
 static void count_blocks(VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
-    uint32_t width = 0, height = 0;
-    if (counts[COUNT_COLUMNS])
-        lens_blocks_size((uint32_t)counts[COUNT_COLUMNS], (uint32_t)counts[COUNT_ROWS], &width, &height);
-    counts[COUNT_BLOCK_COLUMNS] = width;
-    counts[COUNT_BLOCK_ROWS] = height;
+    const uint32_t columns = (uint32_t)counts[COUNT_COLUMNS], rows = (uint32_t)counts[COUNT_ROWS];
+    const uint32_t below = level_size(columns, 2) + level_size(columns, 3), above = level_size(columns, 1);
+    counts[COUNT_BLOCK_COLUMNS] = columns ? above > below ? above : below : 0;
+    counts[COUNT_BLOCK_ROWS] = columns ? level_size(rows, 1) + level_size(rows, 2) : 0;
 }
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -116,7 +109,7 @@ static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE | VIRGA_USE_UNIFORM, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL, .per_view = true},
     {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
-    {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_TILE_KINDS * sizeof(virga_lens_list_gpu),
+    {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_LISTS * sizeof(virga_lens_list_gpu),
      .entry = VIRGA_LENS_TILE_KINDS * sizeof(uint32_t), .count = COUNT_TILES},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };

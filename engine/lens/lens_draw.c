@@ -308,13 +308,11 @@ static void record_blocks(virga_lens *lens, VkCommandBuffer cmd, const virga_len
                           uint32_t layer)
 {
     virga_context *context = lens->base.context;
-    uint32_t width, height;
     if (!view->levels)
         return;
-    lens_blocks_size(view->columns, view->rows, &width, &height);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.blocks");
     context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof layer, &layer);
-    virga_dispatch_2d(context, cmd, lens->block[form], width / GROUP, VIRGA_LENS_BLOCK_KINDS * (height / GROUP));
+    over_list(lens, cmd, lens->block[form], VIRGA_LENS_TILE_KINDS, offsetof(virga_lens_list_gpu, gather_x));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }

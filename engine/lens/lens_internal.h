@@ -66,11 +66,6 @@ struct virga_lens {
     virga_lens_stats stats;
 };
 
-/* ---- lens.c */
-
-/* The image of blocks for a work image of this size, see shaders/lens/levels.glsl. */
-void lens_blocks_size(uint32_t columns, uint32_t rows, uint32_t *width, uint32_t *height);
-
 /* ---- lens_aperture.c */
 
 /* Fills the areas of an aperture's image on a grid of pixels, for the radii of shaders/lens/spread.glsl. */

@@ -126,7 +126,7 @@ void write(ivec2 at, uint kind, uint level, block_sum sum)
 void main()
 {
     // Workgroups of the kinds are below each other, and a workgroup is in one level.
-    const int rows = level_size(1u).y + level_size(2u).y;
+    const int rows = blocks_rows();
     const uint kind = gl_GlobalInvocationID.y / uint(rows);
     const ivec2 at = ivec2(gl_GlobalInvocationID.xy) - ivec2(0, int(kind) * rows);
     const uint level = at.y < level_size(1u).y ? 1u : at.x < level_size(2u).x ? 2u : 3u;

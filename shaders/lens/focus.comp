@@ -22,8 +22,10 @@ void main()
         next = mix(state.focus_inv_m, next, view.ease);
     state.focus_inv_m = next;
     state.focused = 1u;
+    const virga_lens_list_gpu none = virga_lens_list_gpu(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    lists[VIRGA_LENS_TILE_KINDS] = none;
     if (!HALVED)
-        lists[0].levels = 0u;
+        lists[0] = none;
     if (HALVED)
         for (uint kind = 0u; kind < VIRGA_LENS_TILE_KINDS; kind++)
             lists[kind] = virga_lens_list_gpu(TILE_GROUPS * TILE_GROUPS, 0u, 0u, 4u * TILE_GROUPS * TILE_GROUPS, 0u, 0u,

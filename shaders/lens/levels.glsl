@@ -57,6 +57,9 @@ int top_level(uint levels) { return max(findMSB(levels & 15u), 0); }
 ivec2 level_blocks(uint level) { return (ivec2(view.columns, view.rows) + (1 << level) - 1) >> int(level); }
 ivec2 level_size(uint level) { return (level_blocks(level) + 2 + 7) & ~7; }
 
+// Rows of the image of blocks that are used.
+int blocks_rows() { return level_size(1u).y + level_size(2u).y; }
+
 // Level 2 is below level 1, and level 3 is to the right of level 2.
 ivec2 level_origin(uint level)
 {

@@ -5,7 +5,7 @@
 #endif
 layout(std430, set = 0, binding = 28) LISTS_ACCESS buffer Lists
 {
-    virga_lens_list_gpu lists[VIRGA_LENS_TILE_KINDS];
+    virga_lens_list_gpu lists[VIRGA_LENS_LISTS];
     uint listed[];
 };
 

@@ -1,7 +1,7 @@
 // reach.comp - how far each tile has to look for what reaches it: the largest circles of confusion, of each kind, of
 // all tiles from which such a disc can reach into it, or (at half resolution, where fields are read between texels)
 // into a texel beside it; and the levels of blocks that those discs are in. At half resolution it also puts the tile
-// into a list by what reaches it.
+// into a list by what reaches it. The first one says how many workgroups make blocks: none where no disc is wide.
 // One invocation per tile. Reads: tiles. Writes: reaches, lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -52,10 +52,25 @@ void add_to_list(uint kind, uint tile)
     atomicMax(lists[kind].combine_z, rows);
 }
 
+// Whether any disc needs blocks: of the scene, of a layer with depths, or of one that is all at one depth.
+bool blocks_needed()
+{
+    bool plane = false;
+    for (uint i = 0u; i < view.layers; i++)
+        plane = plane || (view.layer_inv_m[i] > 0.0 && level_of(circle(view.layer_inv_m[i])) > 0u);
+    return plane || (lists[0].levels & ~(level_bit(0u, 0u) | level_bit(1u, 0u) | level_bit(2u, 0u))) != 0u;
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x >= view.tile_columns * view.tile_rows)
         return;
+    if (gl_GlobalInvocationID.x == 0u && blocks_needed()) {
+        const ivec2 groups = ivec2(max(level_size(1u).x, level_size(2u).x + level_size(3u).x), blocks_rows()) / 8;
+        lists[VIRGA_LENS_TILE_KINDS].gather_x = uint(groups.x);
+        lists[VIRGA_LENS_TILE_KINDS].gather_y = VIRGA_LENS_BLOCK_KINDS * uint(groups.y);
+        lists[VIRGA_LENS_TILE_KINDS].gather_z = 1u;
+    }
     const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
     const ivec2 own = ivec2(gl_GlobalInvocationID.x % view.tile_columns, gl_GlobalInvocationID.x / view.tile_columns);
     const int most = int(view.max_radius) / VIRGA_LENS_TILE + 1;

@@ -54,6 +54,7 @@ typedef struct virga_lens_list_gpu virga_lens_list_gpu;
 #define VIRGA_LENS_TILES_FAR     1 /* only from behind it */
 #define VIRGA_LENS_TILES_SHARP   2 /* none */
 #define VIRGA_LENS_TILE_KINDS    3
+#define VIRGA_LENS_LISTS         4     /* heads of lists: the last one has the workgroups of blocks, and no tiles */
 #define VIRGA_LENS_LIST_ROW      32768 /* tiles in a row of workgroups; a device has 65535 in one */
 
 /* What the combine pass is specialised for besides the number of layers: times VIRGA_LENS_LAYERS + 1. The first three
