@@ -1,4 +1,5 @@
 /* test_particle_spacing.c - the spacing that is guessed from positions, on sets whose spacing is known. */
+#include "../host/test_particles.h"
 #include "check_io.h"
 #include "particle_spacing.h"
 
@@ -104,16 +105,11 @@ static void settled_water_of_splishsplash_has_its_volume(void **state)
         const char *name;
         double spacing;
     } frames[] = {{"dam_break_0000.ply", 0.025}, {"dam_break_0060.ply", 0.0232}, {"dam_break_0120.ply", 0.0232}};
-    const char *shared = getenv("VIRGA_TEST_PARTICLES");
     for (size_t i = 0; i < COUNT(frames); i++) {
         particles frame;
-        char path[256];
-        snprintf(path, sizeof path, "%s/%s", shared ? shared : "/work/shared/particles/dam_break", frames[i].name);
-        if (access(path, R_OK) != 0) {
-            print_message("no %s; VIRGA_TEST_PARTICLES names the folder\n", path);
+        if (!test_particles_have(frames[i].name))
             skip();
-        }
-        assert_true(particles_read(path, &frame, error, sizeof error));
+        assert_true(particles_read(test_particles_path(frames[i].name), &frame, error, sizeof error));
         assert_spacing(&frame, frames[i].spacing, 0.02);
         particles_free(&frame);
     }

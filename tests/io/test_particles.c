@@ -1,4 +1,5 @@
 /* test_particles.c - frames of particles: every format gives the same numbers, and what is wrong is one line. */
+#include "../host/test_particles.h"
 #include "check_io.h"
 #include "particle_files.h"
 #include "particles.h"
@@ -224,13 +225,10 @@ static void files_of_splishsplash_are_read(void **state)
 {
     (void)state;
     particles ply, vtk, geo;
-    char path[256];
-    const char *shared = getenv("VIRGA_TEST_PARTICLES");
-    snprintf(path, sizeof path, "%s/dam_break_0060.ply", shared ? shared : "/work/shared/particles/dam_break");
-    if (access(path, R_OK) != 0) {
-        print_message("no %s; VIRGA_TEST_PARTICLES names the folder\n", path);
+    char path[1024];
+    if (!test_particles_have("dam_break_0060.ply"))
         skip();
-    }
+    snprintf(path, sizeof path, "%s", test_particles_path("dam_break_0060.ply"));
     must_read(path, &ply);
     memcpy(strrchr(path, '.'), ".vtk", 5);
     must_read(path, &vtk);

@@ -2,10 +2,10 @@
  * inside the surface against that of the particles. */
 #include "water_fixture.h"
 
+#include "../host/test_particles.h"
 #include "mesh_volume.h"
 #include "particles.h"
 
-#define FOLDER     "/work/shared/particles/dam_break/"
 #define SPACING_M  0.025
 #define VOLUME_M3  (0.8 * SPACING_M * SPACING_M * SPACING_M)
 #define SUPPORT_M  (2 * SPACING_M) /* of the simulator's kernel, and of ours */
@@ -23,9 +23,8 @@ static particles frame;
 /* Reads a frame into the fixture. */
 static void put_frame(const char *name)
 {
-    char path[256], error[512];
-    snprintf(path, sizeof path, FOLDER "%s", name);
-    if (!particles_read(path, &frame, error, sizeof error))
+    char error[512];
+    if (!particles_read(test_particles_path(name), &frame, error, sizeof error))
         fail_msg("%s", error);
     f.settings.spacing_m = (float)SPACING_M;
     f.settings.volume_m3 = (float)VOLUME_M3;
@@ -165,9 +164,7 @@ int main(void)
         cmocka_unit_test(its_densities_are_those_of_the_simulator),
         cmocka_unit_test(its_volume_is_that_of_the_particles),
     };
-    if (access(FOLDER "dam_break_0060.bgeo", R_OK)) {
-        printf("skipped: there is no " FOLDER "dam_break_0060.bgeo\n");
+    if (!test_particles_have("dam_break_0060.bgeo"))
         return 77;
-    }
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -6,9 +6,8 @@
  * is the turn in full, with a view for each degree; the suite has few views of a small picture. */
 #include "water_picture_fixture.h"
 
+#include "../host/test_particles.h"
 #include "particles.h"
-
-#define DAM_BREAK "/work/shared/particles/dam_break/"
 
 static shot s;
 
@@ -183,16 +182,13 @@ static void settled_frames_of_a_dam_break_have_no_holes(void **state)
     static const char *const names[] = {"dam_break_0100.ply", "dam_break_0120.ply"};
     particles frame = {0};
     (void)state;
-    if (access(DAM_BREAK "dam_break_0120.ply", R_OK)) {
-        printf("skipped: there is no " DAM_BREAK "dam_break_0120.ply\n");
+    if (!test_particles_have("dam_break_0120.ply"))
         skip();
-    }
     open_turn(0.025);
     s.f.settings.volume_m3 = (float)(0.8 * 0.025 * 0.025 * 0.025);
     for (int i = 0; i < 2; i++) {
-        char path[256], error[256];
-        snprintf(path, sizeof path, DAM_BREAK "%s", names[i]);
-        if (!particles_read(path, &frame, error, sizeof error))
+        char error[256];
+        if (!particles_read(test_particles_path(names[i]), &frame, error, sizeof error))
             fail_msg("%s", error);
         s.f.count = 0;
         for (uint32_t k = 0; k < frame.count; k++)

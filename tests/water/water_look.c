@@ -1,5 +1,6 @@
 /* Pictures to look at, in VIRGA_TEST_PICTURES; without it nothing is drawn. A ball, a cloud of drops, and the frames of
  * a dam break where they are. */
+#include "../host/test_particles.h"
 #include "water_picture_fixture.h"
 
 #include "ply.h"
@@ -133,10 +134,10 @@ static void a_dam_break(void **state)
     s.f.settings.spacing_m = 0.025f;
     s.f.settings.volume_m3 = 0.8f * 0.025f * 0.025f * 0.025f;
     for (int k = 0; k < 5; k++) {
-        char path[256], name[64], error[256];
+        char file[64], name[64], error[256];
         ply_points points = {0};
-        snprintf(path, sizeof path, "/work/shared/particles/dam_break/dam_break_%04d.ply", frames[k]);
-        if (!ply_read(path, &points, error, sizeof error))
+        snprintf(file, sizeof file, "dam_break_%04d.ply", frames[k]);
+        if (!ply_read(test_particles_path(file), &points, error, sizeof error))
             break;
         s.f.count = 0;
         for (uint64_t i = 0; i < points.count; i++) {
