@@ -1,7 +1,7 @@
 // read_vdb.cpp - what is in a volume, as OpenVDB sees it.
 #include "read_vdb.h"
+#include "volume_grids.h"
 
-#include <openvdb/Grid.h>
 #include <openvdb/io/File.h>
 
 #include <cstdio>
@@ -9,20 +9,8 @@
 #include <exception>
 #include <string>
 
-namespace openvdb
-{
-OPENVDB_USE_VERSION_NAMESPACE
-namespace OPENVDB_VERSION_NAME
-{
-void initialize();
-}
-} // namespace openvdb
-
 namespace
 {
-
-using float_grid = openvdb::Grid<openvdb::tree::Tree4<float, 5, 4, 3>::Type>;
-using vector_grid = openvdb::Grid<openvdb::tree::Tree4<openvdb::Vec3f, 5, 4, 3>::Type>;
 
 void copy_text(const openvdb::MetaMap &from, const char *name, char to[32])
 {

@@ -1,8 +1,8 @@
 // volume_openvdb.cpp - volumes through OpenVDB, to memory: the module that volume.c loads. No exception leaves this
-// file. Only the headers that are needed, as openvdb.h compiles for half a minute.
+// file.
+#include "volume_grids.h"
 #include "volume_module.h"
 
-#include <openvdb/Grid.h>
 #include <openvdb/io/Archive.h>
 
 #include <cstdio>
@@ -13,20 +13,8 @@
 #include <sstream>
 #include <string>
 
-namespace openvdb
-{
-OPENVDB_USE_VERSION_NAMESPACE
-namespace OPENVDB_VERSION_NAME
-{
-void initialize();
-}
-} // namespace openvdb
-
 namespace
 {
-
-using float_grid = openvdb::Grid<openvdb::tree::Tree4<float, 5, 4, 3>::Type>;
-using vector_grid = openvdb::Grid<openvdb::tree::Tree4<openvdb::Vec3f, 5, 4, 3>::Type>;
 
 static_assert(float_grid::TreeType::LeafNodeType::DIM == VOLUME_SIDE, "a block is a leaf");
 
