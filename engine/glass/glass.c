@@ -71,6 +71,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, compress_step, 0, 1, 0.1, .look = true),
     SETTING(FLOAT, compress_k, 0, 1, 0.3, .look = true),
     SETTING(FLOAT, threshold, 0.05, 0.95, 0.5, .look = true),
+    SETTING(FLOAT, pinning, 0, 1, 0, .look = true),
     SETTING(FLOAT, impact_s, 0, 2, 0.25, .look = true),
     SETTING(FLOAT, paper_shift, 0, 4, 0.35, .look = true),
     SETTING(FLOAT, textured_px, 0, 64, 0, .look = true),

@@ -187,6 +187,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->compress_step = s->compress_step;
     look->compress_k = s->compress_k;
     look->threshold = s->threshold;
+    look->pinning = s->pinning;
     look->paper_shift = s->paper_shift;
     look->thickness_m = s->thickness_mm * 1e-3f;
     memcpy(look->tint, s->tint, sizeof look->tint);

@@ -11,16 +11,17 @@
  * weight rho g pi f a^3 exceeds 24/pi^3 sigma 2 a (cos r - cos a). With 63 and 38 degrees this radius is 2.2 mm.
  * Clean glass: in the published range for soda-lime glass after cleaning.
  * Coated glass: in the published range for silane coatings (hysteresis of 10 to 15 degrees).
- * Leaf: a waxy leaf. Some have larger angles still, e.g. lotus. */
+ * Leaf: a waxy leaf. Some have larger angles still, e.g. lotus.
+ * Pinning goes with the hysteresis, the difference of the two angles. The paper has none. */
 static const struct {
-    float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity;
+    float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity, pinning;
 } kinds[VIRGA_GLASS_KINDS] = {
-    [VIRGA_GLASS_KIND_PAPER] = {63, 38, 0.6f, 6, 0.5f, 0.5f},
-    [VIRGA_GLASS_KIND_CLEAN] = {35, 15, 0.5f, 10, 0.5f, 0.3f},
-    [VIRGA_GLASS_KIND_DIRTY] = {65, 20, 0.7f, 8, 0.7f, 0.9f},
-    [VIRGA_GLASS_KIND_COATED] = {112, 98, 0.5f, 0, 0.15f, 0.3f},
-    [VIRGA_GLASS_KIND_METAL] = {80, 50, 0.6f, 3, 0.4f, 0.5f},
-    [VIRGA_GLASS_KIND_LEAF] = {130, 115, 0.4f, 0, 0, 0.4f},
+    [VIRGA_GLASS_KIND_PAPER] = {63, 38, 0.6f, 6, 0.5f, 0.5f, 0},
+    [VIRGA_GLASS_KIND_CLEAN] = {35, 15, 0.5f, 10, 0.5f, 0.3f, 0.8f},
+    [VIRGA_GLASS_KIND_DIRTY] = {65, 20, 0.7f, 8, 0.7f, 0.9f, 1},
+    [VIRGA_GLASS_KIND_COATED] = {112, 98, 0.5f, 0, 0.15f, 0.3f, 0.15f},
+    [VIRGA_GLASS_KIND_METAL] = {80, 50, 0.6f, 3, 0.4f, 0.5f, 0.6f},
+    [VIRGA_GLASS_KIND_LEAF] = {130, 115, 0.4f, 0, 0, 0.4f, 0.1f},
 };
 
 void virga_glass_apply_kind(virga_glass_kind kind, virga_glass_settings *settings)
@@ -33,6 +34,7 @@ void virga_glass_apply_kind(virga_glass_kind kind, virga_glass_settings *setting
     settings->film_um = kinds[kind].film_um;
     settings->tail_max_radius_mm = kinds[kind].tail_max_radius_mm;
     settings->affinity = kinds[kind].affinity;
+    settings->pinning = kinds[kind].pinning;
 }
 
 /* A spherical cap with the contact angle t on a base of radius a holds pi a^3 (2 - 3 cos t + cos^3 t) / (3 sin^3 t). */

@@ -135,11 +135,12 @@ uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settin
     const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER;
     const bool usual_steps = !settings->compress || settings->compress_steps <= VIRGA_GLASS_USUAL_STEPS;
     return (uint32_t)settings->density | (uint32_t)settings->blend << 3 | (paper ? GLASS_GATHER_PAPER : 0) |
-           (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (usual_steps ? GLASS_GATHER_USUAL_STEPS : 0);
+           (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (usual_steps ? GLASS_GATHER_USUAL_STEPS : 0) |
+           (settings->pinning > 0 ? GLASS_GATHER_PINNED : 0);
 }
 
 /* Creates the gather passes for these settings that do not exist yet: without film, with sheets of film, and with
- * sheets and beads. There are 180 variants in total, and a pane uses three. */
+ * sheets and beads. There are 360 variants in total, and a pane uses three. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};

@@ -36,17 +36,18 @@ enum {
     GLASS_DRAW_ROWS = 7
 };
 
-#define GLASS_GATHER_FILM        16u  /* tiles with film */
-#define GLASS_GATHER_MAP         32u  /* the host reads the height map */
-#define GLASS_GATHER_BEADS       64u  /* the view is near enough to show beads of film as drops */
-#define GLASS_GATHER_PAPER       128u /* paper style: writes packed densities; heights only if the host reads them */
-#define GLASS_GATHER_USUAL_STEPS 256u /* at most VIRGA_GLASS_USUAL_STEPS of compression */
-#define GLASS_GATHER_MASKED      512u /* (paper) some cells may have no glass */
-#define GLASS_MIST_SEVERAL       1u   /* several cells per texel */
-#define GLASS_MIST_MASKED        2u   /* some cells may have no glass */
-#define GLASS_MIST_FORMS         4    /* passes, by these bits */
+#define GLASS_GATHER_FILM        16u   /* tiles with film */
+#define GLASS_GATHER_MAP         32u   /* the host reads the height map */
+#define GLASS_GATHER_BEADS       64u   /* the view is near enough to show beads of film as drops */
+#define GLASS_GATHER_PAPER       128u  /* paper style: writes packed densities; heights only if the host reads them */
+#define GLASS_GATHER_USUAL_STEPS 256u  /* at most VIRGA_GLASS_USUAL_STEPS of compression */
+#define GLASS_GATHER_MASKED      512u  /* (paper) some cells may have no glass */
+#define GLASS_GATHER_PINNED      1024u /* outlines are uneven */
+#define GLASS_MIST_SEVERAL       1u    /* several cells per texel */
+#define GLASS_MIST_MASKED        2u    /* some cells may have no glass */
+#define GLASS_MIST_FORMS         4     /* passes, by these bits */
 /* Combinations of GLASS_GATHER_... bits. Three are created per density, blend, style and compression in use. */
-#define GLASS_GATHERS 1024
+#define GLASS_GATHERS 2048
 
 #define GLASS_ALL_TEXTURED 1e30f /* virga_glass_picture_gpu.textured_px: all drops are drawn as textures */
 

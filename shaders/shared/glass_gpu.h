@@ -184,7 +184,7 @@ struct virga_glass_seed_gpu {
 
 /* A two-dimensional metaball of the height map, 36 bytes. */
 struct virga_glass_ball_gpu {
-    float middle[2]; /* m, centre on the pane */
+    float middle[2]; /* m, centre on the pane, displaced as texels are (pinning.glsl) */
     float radius_m;  /* m, where a single ball has the density 0.5; its water has the height of a spherical cap */
     /* area in texels that it covers in addition to its shape, because it is hardly larger than a texel */
     float mist;

@@ -58,6 +58,7 @@ struct virga_glass_picture_gpu {
     float compress_step; /* fraction of V0 */
     float compress_k;    /* [0; 1], k */
     float threshold;     /* density at the outline of a drop */
+    float pinning;       /* [0; 1] how uneven outlines are */
     float paper_shift;   /* (paper) displacement of the background by the normal's x and y, in heights of the picture */
     float thickness_m;   /* m, of the glass */
     float tint[3];

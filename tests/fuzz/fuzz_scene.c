@@ -243,6 +243,7 @@ static void set_glass(bytes *b, virga_glass *glass)
     s.wiper_count = read_uint(b) % 4;
     for (uint32_t i = 0; i < s.wiper_count; i++)
         read_wiper(b, &s.wipers[i]);
+    s.pinning = read_float(b, 0, 1);
     virga_glass_set(glass, &s);
 }
 

@@ -19,6 +19,7 @@ static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
     open_small(&s);
     if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
         REQUIRE(glass_picture_use_lanes(s.glass, lanes) == VIRGA_OK);
+    s.settings.pinning = 0.7f;
     put_even_balls(&s);
     put_balls(&s, balls, BALLS);
     crowd(&s);

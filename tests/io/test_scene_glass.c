@@ -30,6 +30,7 @@ static const char full[] =
     "    affinity: 0.1\n"
     "    film_um: 0\n"
     "    tail_max_radius_mm: 0.2\n"
+    "    pinning: 0.3\n"
     "    opaque: true\n"
     "    style: paper\n"
     "    density: wyvill\n"
@@ -88,6 +89,7 @@ static void a_pane_has_defaults(void **state)
     assert_null(pane->affinity);
     assert_null(pane->film_um);
     assert_null(pane->tail_max_radius_mm);
+    assert_null(pane->pinning);
     assert_null(pane->opaque);
     assert_null(pane->mask);
     assert_null(pane->mesh);
@@ -145,6 +147,7 @@ static void every_value_of_a_pane_arrives(void **state)
     near(*pane->kinetic_hold, 0);
     near(*pane->film_um, 0);
     near(*pane->tail_max_radius_mm, 0.2);
+    near(*pane->pinning, 0.3);
     assert_true(*pane->opaque);
     assert_string_equal(scene_pane_style_name(pane->style), "paper");
     assert_int_equal(pane->density, 3);

@@ -273,6 +273,7 @@ static const field glass_fields[] = {
     F(opening_roundness, 0, 1),
     F(opening_deg, -360, 360),
     F(air_outward, 0, 2),
+    F(pinning, 0, 1),
     LIGHTS(virga_glass_settings),
 };
 

@@ -103,6 +103,8 @@ static const scene_row pane_rows[] = {
     OPTIONAL_NUMBER(scene_pane, film_um, 0, 100, LIVE, "film that a running drop leaves; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, tail_max_radius_mm, 0, 2, LIVE,
                     "largest radius of drops that a running one leaves behind; else its kind's"),
+    OPTIONAL_NUMBER(scene_pane, pinning, 0, 1, LIVE,
+                    "how firmly uneven glass holds the rims of drops; else its kind's"),
     OPTIONAL_SWITCH(scene_pane, opaque, LIVE, "not glass: drops show what is under them; else its kind's"),
     NUMBER(scene_pane, drag, 0.01, 100, "1", LIVE, "times the resistance of running drops"),
     NUMBER(scene_pane, meander, 0, 1, "0.1", LIVE, "share of steps to the side that even glass has"),

@@ -66,7 +66,7 @@ typedef struct scene_pane {
     double shelter;
     double frame_m; /* width of a dark frame around it; 0: none */
     uint32_t kind;  /* virga_glass_kind */
-    double *advancing_deg, *receding_deg, *kinetic_hold, *affinity, *film_um, *tail_max_radius_mm;
+    double *advancing_deg, *receding_deg, *kinetic_hold, *affinity, *film_um, *tail_max_radius_mm, *pinning;
     bool *opaque; /* NULL: only metal and leaves are opaque */
     double drag, meander, path_ease, path_dry_s, merge_distance;
     double tail_spacing_m, tail_lifetime_s, film_break_s, evaporation_mm_h, mist_max_mm, air_share, air_outward;

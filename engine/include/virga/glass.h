@@ -406,6 +406,13 @@ typedef struct virga_glass_settings {
     /* [0.05; 0.95] density at which a drop ends. Default 0.5. */
     float threshold;
 
+    /* [0; 1] how firmly uneven glass holds the rims of drops. Their outlines vary, each with the area of its round cap;
+     * drops are longer than wide on an inclined pane, by 1 + 0.096 x Bond number at 1 (ElSherbini and Jacobi 2004); and
+     * what has run or merged keeps a part of its tail when it stops. 0: drops at rest are circles. Only the picture
+     * changes, not how drops move. Costs time for each texel with drops. Default that of the kind: 0 (paper), 0.8
+     * (clean), 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
+    float pinning;
+
     /* [0; 2] time in which a drop that has landed draws in its three sub-balls (s). Default 0.25. */
     float impact_s;
 
@@ -510,7 +517,7 @@ VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
  * VIRGA_ERROR_INVALID, and nothing changes.
  *
  * A style that this pane has not had yet needs 2 to 20 pipelines for each attached target. A new density, blend or
- * style needs three more; so do more than five steps of compression. They are built as
+ * style needs three more; so do a first pinning above 0, and more than five steps of compression. They are built as
  * virga_context_def.pipeline_build_mode says, and the pane is not drawn until they are there. Their errors are those of
  * virga_glass_create, and then nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);

@@ -11,6 +11,7 @@
 #include "density.glsl"
 #include "tiles.glsl"
 #include "drop_size.glsl"
+#include "pinning.glsl"
 
 layout(constant_id = 0) const uint MODE = 0u; // 1: small drops are drawn as textures
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
@@ -24,6 +25,9 @@ layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_
 
 #define SUB_WATER 0.27  // part of a drop's water in its three sub-balls when it lands
 #define TEAR_SPEED 0.03 // m/s at which the tear shape is half formed
+#define TEAR_LEFT 0.45  // part of it that is left, at a pinning of 1, in a drop that has stopped
+#define MIN_TEAR 2.0    // min radius of such a drop (texels)
+#define WIDER 0.45      // how much farther a ball reaches on displaced glass, at a pinning of 1
 
 shared uint widest, shape_count, entry_count; // of the workgroup
 
@@ -70,18 +74,32 @@ void shape_landing(float t, uint random)
     sub_peak = min(4.0 * (1.0 - t), 1.0);
 }
 
-// A running drop: smaller balls behind it, farther the faster it runs. Together they hold its water.
-void shape_tear(vec2 velocity)
+// A tear: smaller balls behind the drop, farther the more of a tear it is. Together they hold its water.
+void shape_tear(vec2 behind, float share)
 {
-    const float speed = length(velocity), speed_share = speed / (speed + TEAR_SPEED);
-    const vec3 sizes = speed_share * vec3(0.80, 0.60, 0.42);
-    const vec3 distances = (0.35 + 0.65 * speed_share) * vec3(0.75, 1.45, 2.05);
+    const vec3 sizes = share * vec3(0.80, 0.60, 0.42);
+    const vec3 distances = (0.35 + 0.65 * share) * vec3(0.75, 1.45, 2.05);
     const float head = radii[0] / pow(1.0 + dot(sizes, sizes * sizes), 1.0 / 3.0);
     radii[0] = head;
     for (int i = 0; i < 3; i++) {
-        middles[i + 1] = middles[0] - velocity / speed * (head * distances[i]);
+        middles[i + 1] = middles[0] + behind * (head * distances[i]);
         radii[i + 1] = head * sizes[i];
     }
+}
+
+// A running drop is more of a tear the faster it runs. The rear of one that has stopped stays where the glass holds it:
+// behind the drop, or where water came from that it merged with.
+void shape_moved(virga_glass_drop_gpu drop, bool runs)
+{
+    const vec2 velocity = vec2(drop.velocity[0], drop.velocity[1]);
+    const float speed = length(velocity);
+    const ivec2 cell = ivec2(drop.cell % look.pane.columns, drop.cell / look.pane.columns),
+                from = ivec2(drop.from_cell % look.pane.columns, drop.from_cell / look.pane.columns);
+    const vec2 apart = vec2(from - cell) * look.pane.cell_m;
+    const float rest = look.pinning * TEAR_LEFT * smoothstep(0.2, 0.8, length(apart) / max(radii[0], 1e-6));
+    const float share = runs ? max(speed / (speed + TEAR_SPEED), look.pinning * TEAR_LEFT) : rest;
+    if (share > 0.0)
+        shape_tear(runs ? -velocity / speed : normalize(apart), share);
 }
 
 void count_tiles(uvec2 reached)
@@ -112,10 +130,11 @@ void emit_balls(vec2 sag, float whole, float left)
         const float peak = (i == 0u ? 1.0 : sub_peak) * shape * left;
         const float mist = left * (as_one ? (i == 0u ? all : 0.0) : mist_of(i));
         if (radius > 0.0 && peak + mist > 0.0) {
-            const uvec2 reached = tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
-            balls[atomicAdd(work.balls, 1u)] =
-                virga_glass_ball_gpu(float[2](middles[i].x, middles[i].y), radius, mist, float[2](sag.x, sag.y), peak,
-                                     uint[2](reached.x, reached.y));
+            const float reach = density_reach() * (1.0 + WIDER * look.pinning);
+            const uvec2 reached = tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, reach));
+            const vec2 at = middles[i] + (look.pinning > 0.0 ? pinned(middles[i]) : vec2(0.0));
+            balls[atomicAdd(work.balls, 1u)] = virga_glass_ball_gpu(
+                float[2](at.x, at.y), radius, mist, float[2](sag.x, sag.y), peak, uint[2](reached.x, reached.y));
             atomicAdd(shape_count, peak > 0.0 ? 1u : 0u);
             count_tiles(reached);
             atomicMax(widest, floatBitsToUint(radius));
@@ -142,8 +161,9 @@ void emit_drop(uint slot)
     const bool runs = !particle && !lands && (at.kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8;
     if (lands)
         shape_landing(age / look.impact_s, at.random);
-    if (runs)
-        shape_tear(velocity);
+    const bool held = look.pinning > 0.0 && radius > MIN_TEAR * max(look.texel_m[0], look.texel_m[1]);
+    if (runs || (held && !particle && !lands))
+        shape_moved(at, runs);
     float left = 1.0;
     if (MODE != 0u) {
         const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);

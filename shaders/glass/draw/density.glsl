@@ -13,6 +13,7 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define PAPER ((MODE & 128u) != 0u)     // the paper's style, which shows densities only
 #define HEIGHTS ((MODE & 160u) != 128u) // heights are needed: not the paper's style, or the host reads the map
 #define MASKED ((MODE & 512u) != 0u)    // (paper) there may be cells without glass
+#define PINNED ((MODE & 1024u) != 0u)    // outlines are uneven
 #define USUAL_STEPS ((MODE & 256u) != 0u) // at most VIRGA_GLASS_USUAL_STEPS steps of compression
 #else
 #define DENSITY look.density

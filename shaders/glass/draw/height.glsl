@@ -27,6 +27,7 @@
 #include "density.glsl"
 #include "tiles.glsl"
 #include "beads.glsl"
+#include "pinning.glsl"
 #include "paper_texel.glsl"
 #include "mask.glsl"
 
@@ -43,6 +44,7 @@ layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIR
 struct Ball {
     vec2 middle, sag;
     float inv_radius, height, peak, mist;
+    float stretch; // 1 - 1 / length^2 over |sag|^2, with the length over the width of a drop
 };
 
 // Not in an array, which would be kept in memory: compilers do not unroll a loop that contains one of unknown length.
@@ -71,8 +73,11 @@ shared vec3 beads[MAX_CELLS * MAX_CELLS * BEADS]; // in any order: sums do not d
 Ball ball_of(uint entry)
 {
     const virga_glass_ball_gpu b = balls[entries[entry]];
-    return Ball(vec2(b.middle[0], b.middle[1]), vec2(b.sag[0], b.sag[1]), 1.0 / b.radius_m,
-                b.radius_m * look.cap_height / unit_m, b.peak, b.mist);
+    const vec2 sag = vec2(b.sag[0], b.sag[1]);
+    const float longer = PINNED ? pinned_length(sag) : 1.0; // with the same area
+    const float stretch = PINNED ? (1.0 - 1.0 / (longer * longer)) / max(dot(sag, sag), 1e-12) : 0.0;
+    return Ball(vec2(b.middle[0], b.middle[1]), sag, (PINNED ? sqrt(longer) : 1.0) / b.radius_m,
+                b.radius_m * look.cap_height / unit_m, b.peak, b.mist, stretch);
 }
 
 // What a ball adds to a texel's sums: V (Chen and Zhang: k), k V, k V z, k K.
@@ -92,7 +97,8 @@ vec4 contributions(Ball ball, vec2 x, float x2, float density)
 void add_to(inout Texel texel, Ball ball)
 {
     const vec2 off = texel.position - ball.middle, x = off * ball.inv_radius;
-    const float x2 = dot(x, x);
+    const float along = PINNED ? dot(ball.sag, x) : 0.0;
+    const float x2 = PINNED ? dot(x, x) - ball.stretch * along * along : dot(x, x);
     const vec4 parts = contributions(ball, x, x2, ball.peak * density_at(x2, reach));
     texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(parts * ONE + 0.5) : ivec4(0);
     const vec2 near = max(1.0 - abs(off) / texel_m(), 0.0);
@@ -117,7 +123,7 @@ void add_balls(virga_glass_tile_gpu tile)
         const vec4 sizes = vec4(own_ball.inv_radius, own_ball.height, own_ball.peak, own_ball.mist);
         for (uint i = 0u; i < batch_size; i++) {
             const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
-            add(Ball(e.xy, e.zw, s.x, s.y, s.z, s.w));
+            add(Ball(e.xy, e.zw, s.x, s.y, s.z, s.w, PINNED ? subgroupShuffle(own_ball.stretch, i) : 0.0));
         }
         from += gl_SubgroupSize;
         if (from < tile.count)
@@ -199,10 +205,24 @@ uint tile_of_group()
     return work_list[min(index, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
 }
 
-void begin_texels(ivec2 first)
+vec2 middle_of(ivec2 texel) { return (vec2(texel) + 0.5) * texel_m(); }
+
+// Balls are summed at displaced points.
+void begin_texels(ivec2 first, bool displaced)
 {
-#define BEGIN(i) texel##i = Texel((vec2(first + ivec2(0, i)) + 0.5) * texel_m(), ivec4(0), 0);
+#define BEGIN(i)                                                      \
+    {                                                                 \
+        const vec2 at = middle_of(first + ivec2(0, i));               \
+        texel##i = Texel(displaced ? at + pinned(at) : at, ivec4(0), 0); \
+    }
     FOR_EACH(BEGIN)
+}
+
+// The texels' own places, for film.
+void place_texels(ivec2 first)
+{
+#define PLACE(i) texel##i.position = middle_of(first + ivec2(0, i));
+    FOR_EACH(PLACE)
 }
 
 #define SHOWN_BIT 16
@@ -253,8 +273,10 @@ void gather()
     // 1.6: the higher side of a ball that sags.
     unit_m = max(uintBitsToFloat(work.highest), WITH_BEADS ? VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m : 1e-6) *
              look.cap_height * 1.6;
-    begin_texels(first);
+    begin_texels(first, PINNED);
     add_balls(tiles[number]);
+    if (PINNED)
+        place_texels(first);
     if (WITH_BEADS)
         add_beads(tile);
     const uint found = or_reduce(write_texels(first)), relief = PAPER ? 0u : before_map & VIRGA_GLASS_HOLDS_RELIEF;

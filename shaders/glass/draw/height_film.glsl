@@ -51,7 +51,8 @@ void add_beads(ivec2 tile)
     barrier();
     for (uint i = 0u; i < bead_count; i++) {
         const vec3 bead = beads[i];
-        add(Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / unit_m, bead_shapes(bead.zz).x, 0.0));
+        add(Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / unit_m, bead_shapes(bead.zz).x, 0.0,
+                 0.0));
     }
 }
 

@@ -9,6 +9,14 @@
 #define FEW
 #include "live.glsl"
 
+// The cell from which the merged water came: its rim is held there. The drop's own, if that is not on the pane.
+uint cell_of_merged(virga_glass_drop_gpu drop)
+{
+    const vec2 offset = vec2(drop.merged_nl_10um[0], drop.merged_nl_10um[1]) * (1e-5 / float(drop.merged_nl));
+    const ivec2 cell = cell_at(to_vec2(drop.position) + offset);
+    return on_pane(cell) ? cell_number(cell) : drop.cell;
+}
+
 // Mass and momentum are added (Goto et al. 2009, section 4.1). The drop moves to the center of mass of all the water,
 // but keeps its cell, since the cell beside it may be occupied.
 void apply_merges(inout virga_glass_drop_gpu drop)
@@ -19,8 +27,11 @@ void apply_merges(inout virga_glass_drop_gpu drop)
     const vec2 momentum = to_vec2(drop.velocity) * float(drop.water_nl) +
                           0.001 * float(VIRGA_GLASS_MOMENTUM) * vec2(drop.merged_momentum[0], drop.merged_momentum[1]);
     drop.velocity = to_array(momentum / float(water));
-    if (drop.merged_nl > drop.water_nl / 4u)
+    if (drop.merged_nl > drop.water_nl / 4u) {
         drop.kind &= ~uint(VIRGA_GLASS_TAIL);
+        if (kind_of(drop) == VIRGA_GLASS_DROP && (drop.kind & VIRGA_GLASS_RUNNING) == 0u)
+            drop.from_cell = cell_of_merged(drop);
+    }
     const vec2 shift = vec2(drop.merged_nl_10um[0], drop.merged_nl_10um[1]) * (1e-5 / float(water));
     drop.position = to_array(to_pane(to_vec2(drop.position) + shift));
     drop.water_nl = water;

@@ -44,7 +44,8 @@ static void fill_kind(const scene_pane *from, virga_glass_settings *to)
                 {from->kinetic_hold, &to->kinetic_hold},
                 {from->affinity, &to->affinity},
                 {from->film_um, &to->film_um},
-                {from->tail_max_radius_mm, &to->tail_max_radius_mm}};
+                {from->tail_max_radius_mm, &to->tail_max_radius_mm},
+                {from->pinning, &to->pinning}};
     virga_glass_apply_kind((virga_glass_kind)from->kind, to);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].given)
