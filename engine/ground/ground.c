@@ -39,6 +39,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.2),
     SETTING(FLOAT, start_wetness, 0, 1, 0),
     SETTING(FLOAT, start_water_mm, 0, 50, 0),
+    SETTING(U32, contact_droplets, 0, 64, 12),
     SETTING(BOOL, measure, false, true, true, .look = true),
 };
 
@@ -193,7 +194,7 @@ static const virga_binding_kind bindings[] = {
     [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},   /* 24 */
     [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE}, /* 25 */
     [BIND_FAR_MAP] = {IMAGE, COMPUTE},       /* 26 */
-    [BIND_WATER] = {STORAGE, COMPUTE},       /* 27 particles of simulated water */
+    [BIND_WATER] = {STORAGE, COMPUTE},       /* 27 particles of simulated water, or droplets that are thrown */
     [BIND_EXCHANGE] = {STORAGE, COMPUTE},    /* 28 water that becomes particles, and comes back */
 };
 
@@ -206,6 +207,8 @@ static const virga_effect_pass passes[] = {
     PASS(tile_load),
     PASS(tile_discard),
     PASS(touch),
+    PASS(contact),
+    PASS(contact_soak),
     PASS(receive),
     PASS(receive_soak),
     PASS(take),
@@ -379,6 +382,21 @@ static virga_bound written(const virga_image_2d *image)
     return (virga_bound){.view = image->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL};
 }
 
+/* Simulated water, or where contacts throw droplets. */
+static virga_bound water_list(const virga_ground *ground, uint32_t source)
+{
+    const virga_ground_step_info *info = &ground->info;
+    if (source == GROUND_CONTACTS && info->handed)
+        return (virga_bound){.buffer = info->handed,
+                             .offset = info->handed_offset,
+                             .range = virga_host_list_range(ground->base.context, info->handed_size, UINT32_MAX)};
+    if (source != GROUND_CONTACTS && info->water)
+        return (virga_bound){.buffer = info->water,
+                             .offset = info->water_offset,
+                             .range = (VkDeviceSize)info->water_count * sizeof(virga_particle_gpu)};
+    return (virga_bound){.buffer = ground->counts->buffer}; /* not read */
+}
+
 static void write_set(virga_ground *ground, uint32_t source)
 {
     virga_context *context = ground->base.context;
@@ -404,11 +422,7 @@ static void write_set(virga_ground *ground, uint32_t source)
     bound[BIND_FAR_DEPTH] = sampled(ground, virga_mesh_map_depth(ground->far.height_map));
     bound[BIND_FAR_SURFACE] = sampled(ground, virga_mesh_map_surface(ground->far.height_map));
     bound[BIND_FAR_MAP] = written(ground->far.map);
-    bound[BIND_WATER] = info->water
-                            ? (virga_bound){.buffer = info->water,
-                                            .offset = info->water_offset,
-                                            .range = (VkDeviceSize)info->water_count * sizeof(virga_particle_gpu)}
-                            : (virga_bound){.buffer = ground->counts->buffer}; /* not read */
+    bound[BIND_WATER] = water_list(ground, source);
     bound[BIND_EXCHANGE] = info->exchange.buffer
                                ? (virga_bound){.buffer = info->exchange.buffer,
                                                .offset = info->exchange.offset,
@@ -422,6 +436,8 @@ void ground_write_sets(virga_ground *ground)
     write_set(ground, GROUND_DROPS);
     if (ground->info.returned_droplets)
         write_set(ground, GROUND_RETURNS);
+    if (ground->info.wheel_count || ground->info.foot_count)
+        write_set(ground, GROUND_CONTACTS);
 }
 
 void virga_ground_refresh_heights(virga_ground *ground)

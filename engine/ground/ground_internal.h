@@ -2,6 +2,7 @@
  *
  *   ground.c          create, destroy, settings, maps and statistics
  *   materials.c       how materials absorb, hold and drain water
+ *   ground_contacts.c wheels and feet
  *   ground_window.c   which tiles are in the window, in the cache, or evicted
  *   standing.c        water where drops are not simulated
  *   ground_far.c      the map of distant ground
@@ -170,8 +171,9 @@ extern const virga_effect_draw ground_draws[1];
 
 /* ---- the object */
 
-/* The sources of a tick's water: impacts of the rain, or droplets that splashes return. */
-enum { GROUND_DROPS, GROUND_RETURNS, GROUND_SOURCES };
+/* The sources of a tick's water: impacts of the rain, or droplets that splashes return. And wheels and feet, which
+ * throw droplets into a list. */
+enum { GROUND_DROPS, GROUND_RETURNS, GROUND_CONTACTS, GROUND_SOURCES };
 
 /* The statistics that are read back for one frame. */
 typedef struct ground_readback {
@@ -214,8 +216,8 @@ struct virga_ground {
     double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *tile_load, *tile_discard, *touch, *receive, *receive_soak, *take, *spawn_mark, *spawn_scan, *land,
-        *share, *soak, *flow, *measure, *measure_cached, *map, *ring;
+    virga_pipeline *tile_load, *tile_discard, *touch, *contact, *contact_soak, *receive, *receive_soak, *take,
+        *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_cached, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, one for each source of water */
@@ -237,6 +239,13 @@ void ground_write_sets(virga_ground *ground);
 void ground_lost(void *ground, uint64_t frame, uint32_t did);
 void ground_state_loaded(void *ground);
 void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
+
+/* ---- ground_contacts.c */
+
+virga_result ground_contacts_check(const virga_ground *ground, const virga_ground_step_info *info);
+void ground_contacts_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
+/* The passes of the newest tick. The set of GROUND_CONTACTS must be bound. */
+void ground_contacts_record(virga_ground *ground, VkCommandBuffer cmd);
 
 /* ---- ground_state.c */
 

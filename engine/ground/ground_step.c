@@ -42,6 +42,7 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     stats->taken_nl = count_of(&read, VIRGA_GROUND_TAKEN);
     stats->given_nl = count_of(&read, VIRGA_GROUND_GIVEN);
     stats->given_off_ground_nl = count_of(&read, VIRGA_GROUND_GIVEN_OFF);
+    stats->thrown_nl = count_of(&read, VIRGA_GROUND_THROWN);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->off_ground_nl = count_of(&read, VIRGA_GROUND_OFF_GROUND);
@@ -184,6 +185,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     fill_material_map(ground, out);
     fill_water(ground, out);
     fill_exchange(ground, out);
+    ground_contacts_fill(ground, out);
     ground_fill_soils(&ground->settings, cell, out->soils);
     ground_standing_fill(ground->standing, out->soils, out->standing);
     ground_far_fill(ground, out);
@@ -421,6 +423,14 @@ static void stand_in_rain(virga_ground *ground)
     ground_standing_tick(ground->standing, soils, &weather);
 }
 
+static void contact(virga_ground *ground, VkCommandBuffer cmd)
+{
+    if (!ground->info.wheel_count && !ground->info.foot_count)
+        return;
+    bind_source(ground, cmd, GROUND_CONTACTS);
+    ground_contacts_record(ground, cmd);
+}
+
 static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
 {
     stand_in_rain(ground);
@@ -433,8 +443,9 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     virga_dispatch(ground->base.context, cmd, ground->ring, 1);
     over_water(ground, cmd, ground->share);
     over_water(ground, cmd, ground->soak);
-    bind(ground, cmd);
     virga_pass_end(ground->base.context, cmd, scope);
+    contact(ground, cmd);
+    bind(ground, cmd);
     flow(ground, cmd);
     ground->ticks++;
 }
@@ -545,6 +556,7 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_effect_reads(&ground->base, cmd, ground->info.impacts);
     virga_effect_reads(&ground->base, cmd, ground->info.returned_droplets);
     virga_effect_reads(&ground->base, cmd, ground->info.exchange.buffer);
+    virga_effect_reads(&ground->base, cmd, ground->info.handed);
     virga_effect_reads(&ground->base, cmd, ground->info.water_count ? ground->info.water : VK_NULL_HANDLE);
     ground->far.is_uncertain = first;
     if (!first)
@@ -619,7 +631,7 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_check_finite(log, "step_info.impacts_reach_m", &info->impacts_reach_m, 1) ||
         virga_settings_check_positions(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
         virga_settings_check_positions(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
-        check_buffers(ground, info))
+        check_buffers(ground, info) || ground_contacts_check(ground, info))
         return VIRGA_ERROR_INVALID;
     if (virga_mesh_map_check(ground->base.context, ground->height_map, info->meshes, info->mesh_count))
         return VIRGA_ERROR_INVALID;

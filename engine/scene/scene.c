@@ -34,6 +34,8 @@ static virga_result check_def(const virga_log *log, const virga_scene_def *def)
         return result;
     if (def->with_splash && !def->with_ground)
         return virga_wrong_argument(log, "scene_def.with_splash: expected with_ground too");
+    if (def->with_contacts && !def->with_splash)
+        return virga_wrong_argument(log, "scene_def.with_contacts: expected with_splash too");
     if (def->max_views < 1 || def->max_views > VIRGA_MAX_VIEWS)
         return virga_wrong_argument(log, "scene_def.max_views: expected 1 to %d, got %u", VIRGA_MAX_VIEWS,
                                     def->max_views);

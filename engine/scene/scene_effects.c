@@ -5,7 +5,9 @@
  *
  *   cells of the ground <-> the host's solver of water (virga/fluid.h), whose particles the host gives to water
  *
- *   the host's particles -> water -> droplets that leave it -> splash, which tells water what it took back */
+ *   the host's particles -> water -> droplets that leave it -> splash, which tells water what it took back
+ *
+ *   the host's wheels and feet -> ground -> droplets that they throw -> splash */
 #include "scene/scene_internal.h"
 
 #include "core/settings.h"
@@ -44,7 +46,7 @@ static uint32_t count_splash(const virga_scene_def *def)
     return def->with_splash;
 }
 
-#define MAX_HANDED 65536 /* droplets that water hands over in a step; more wait for the next one */
+#define MAX_HANDED 65536 /* droplets that water hands over in a step, and contacts throw; more wait for the next one */
 
 static void share_splash(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
@@ -55,8 +57,8 @@ static void share_splash(const virga_scene_def *def, uint32_t index, void *effec
     splash->max_ticks_per_step = def->rain.max_ticks_per_step;
     splash->max_spawns = spawns;
     splash->max_returned_droplets = returned > spawns ? returned : spawns;
-    splash->max_handed = 0;
-    if (def->with_water)
+    splash->max_handed = def->with_contacts ? MAX_HANDED : 0;
+    if (def->with_water && !def->with_contacts)
         splash->max_handed = def->water.max_droplets < MAX_HANDED ? def->water.max_droplets : MAX_HANDED;
 }
 
@@ -159,11 +161,68 @@ static void fill_exchange(const virga_scene_frame *frame, virga_ground_step_info
     }
 }
 
+/* Droplets that are handed to the splashes are where they are at the time of the frame, a part of a tick after the
+ * newest one: as the water's particles are. */
+static void fill_handed(const virga_scene *scene, const virga_scene_frame *frame, double origin_m[3], float *late_s)
+{
+    const bool water = scene_find(scene, &water_type, 0);
+    memcpy(origin_m, water ? frame->water.origin_m : frame->camera_m, sizeof frame->camera_m);
+    *late_s = (float)rain_since_tick_s(rain_of(scene));
+}
+
+static bool has_handed(const virga_scene *scene)
+{
+    virga_splash_buffer handed;
+    virga_splash_handed(scene_find(scene, &splash_type, 0), &handed);
+    return handed.buffer;
+}
+
+/* What a frame has on the ground. */
+typedef struct scene_contacts {
+    virga_wheel wheels[VIRGA_GROUND_MAX_CONTACTS];
+    virga_foot feet[VIRGA_GROUND_MAX_CONTACTS];
+} scene_contacts;
+
+static void go_back(double at_m[3], const float velocity_m_s[3], double time_s)
+{
+    for (int axis = 0; axis < 3; axis++)
+        at_m[axis] -= time_s * (double)velocity_m_s[axis];
+}
+
+/* The ground wants them where they were at the end of the newest tick. */
+static void fill_contacts(const virga_scene *scene, const virga_scene_frame *frame, scene_contacts *contacts,
+                          virga_ground_step_info *info)
+{
+    const double late_s = rain_since_tick_s(rain_of(scene));
+    virga_splash_buffer handed;
+    info->wheels = contacts->wheels;
+    info->wheel_count = frame->wheel_count;
+    info->feet = contacts->feet;
+    info->foot_count = frame->foot_count;
+    for (uint32_t i = 0; i < frame->wheel_count; i++) {
+        contacts->wheels[i] = frame->wheels[i];
+        go_back(contacts->wheels[i].contact_m, contacts->wheels[i].velocity_m_s, late_s);
+    }
+    for (uint32_t i = 0; i < frame->foot_count; i++) {
+        contacts->feet[i] = frame->feet[i];
+        go_back(contacts->feet[i].sole_m, contacts->feet[i].velocity_m_s, late_s);
+    }
+    virga_splash_handed(scene_find(scene, &splash_type, 0), &handed);
+    if (!(frame->wheel_count || frame->foot_count))
+        return;
+    info->handed = handed.buffer;
+    info->handed_offset = handed.offset;
+    info->handed_size = handed.size;
+    fill_handed(scene, frame, info->handed_origin_m, &info->handed_late_s);
+}
+
 static virga_result check_ground(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame)
 {
     const virga_log *log = &scene->context->log;
     const virga_effect *fluid = (const virga_effect *)frame->exchange.fluid;
     (void)index;
+    if (ground_check_wheels_and_feet(log, frame->wheels, frame->wheel_count, frame->feet, frame->foot_count))
+        return VIRGA_ERROR_INVALID;
     if (!fluid)
         return VIRGA_OK;
     if (fluid->context != scene->context)
@@ -174,12 +233,14 @@ static virga_result check_ground(const virga_scene *scene, uint32_t index, const
 static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_splash *splash = scene_find(scene, &splash_type, 0);
+    scene_contacts contacts;
     virga_ground_step_info info = {
         .meshes = frame->occluders, .mesh_count = frame->occluder_count, .materials = frame->materials};
     memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
     memcpy(info.ripple_center_m, frame->ripple_center_m, sizeof info.ripple_center_m);
     fill_rainfall(rain_of(scene), &info);
     fill_touching(scene, frame, &info);
+    fill_contacts(scene, frame, &contacts, &info);
     if (frame->exchange.fluid)
         fill_exchange(frame, &info);
     if (splash)
@@ -257,7 +318,7 @@ static virga_result catch_spray(virga_scene *scene, VkCommandBuffer cmd, uint32_
     for (uint32_t i = 0; i < index; i++)
         number += catches(scene, i, frame);
     virga_rain_ticks(rain_of(scene), NULL, &ticks);
-    if (!splash || !scene_find(scene, &water_type, 0) || !ticks || number >= VIRGA_SPLASH_MAX_PANES)
+    if (!splash || !has_handed(scene) || !ticks || number >= VIRGA_SPLASH_MAX_PANES)
         return VIRGA_OK;
     return virga_splash_give_hits(splash, cmd, number, hits->buffer, hits->offset, hits->size);
 }
@@ -360,15 +421,13 @@ static void fill_floors(const virga_ground *ground, virga_splash_floors *floors)
         cells.floors, cells.tiles, {cells.low_tile[0], cells.low_tile[1]}, maps.cell_m, cells.base_m};
 }
 
-/* Droplets are where the water's particles are: at the time of the frame, a part of a tick after the newest one. */
 static void fill_spray(const virga_scene *scene, const virga_scene_frame *frame, virga_splash_step_info *info)
 {
     virga_water_leavers leavers;
     virga_water_leavers_get(scene_find(scene, &water_type, 0), &leavers);
     info->leavers = leavers.leavers;
     info->leaver_table = leavers.table;
-    info->handed_late_s = (float)rain_since_tick_s(rain_of(scene));
-    memcpy(info->handed_origin_m, frame->water.origin_m, sizeof info->handed_origin_m);
+    fill_handed(scene, frame, info->handed_origin_m, &info->handed_late_s);
 }
 
 /* The panes that catch the rain's drops catch spray, too. */
@@ -400,7 +459,7 @@ static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuf
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
     fill_floors(scene_find(scene, &ground_type, 0), &info.floors);
-    if (scene_find(scene, &water_type, 0)) {
+    if (has_handed(scene)) {
         fill_spray(scene, frame, &info);
         info.panes = panes;
         info.pane_count = fill_panes(scene, frame, panes);

@@ -13,6 +13,7 @@
 typedef struct virga_arrivals_gpu virga_arrivals_gpu;
 typedef struct virga_soil_gpu virga_soil_gpu;
 typedef struct virga_standing_gpu virga_standing_gpu;
+typedef struct virga_contact_gpu virga_contact_gpu;
 typedef struct virga_far_floor_gpu virga_far_floor_gpu;
 typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
 typedef struct virga_ground_count_gpu virga_ground_count_gpu;
@@ -25,7 +26,9 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 /* mean height of each quarter of all bumps, in units of bumps_um */
 #define VIRGA_GROUND_QUARTERS  -1.52, -0.42, 0.42, 1.52
 #define VIRGA_GROUND_FAR_SHIFT 3
-#define VIRGA_GROUND_FAR_CELL  8 /* window cells along the side of a cell of the far map: 1 << FAR_SHIFT */
+#define VIRGA_GROUND_CONTACTS  64 /* wheels and feet in a step */
+#define VIRGA_GROUND_LANES     64 /* invocations of the workgroup that moves their water */
+#define VIRGA_GROUND_FAR_CELL  8  /* window cells along the side of a cell of the far map: 1 << FAR_SHIFT */
 
 /* Water that arrives in a tick. Zero between ticks. */
 struct virga_arrivals_gpu {
@@ -60,6 +63,26 @@ struct virga_far_floor_gpu {
     /* from the lowest bit on: material (8 bits); fraction of the rain that reaches it (4 bits); fraction that is level
      * enough for puddles (4 bits); unevenness (16 bits, signed, in units of FAR_BUMP_UM) */
     uint traits;
+};
+
+/* A wheel or a foot in a tick. Its patch is a rectangle on the ground, which moves along `ahead`; across is ahead,
+ * turned by 90 degrees from x to z. */
+struct virga_contact_gpu {
+    float middle[2]; /* m, x and z of the patch at the end of the tick, from the window's low corner */
+    float ahead[2];  /* x and z, unit length */
+    float half_m[2]; /* half of its length along and across */
+    float swept_m;   /* way that it has moved in the tick */
+    float height_m;  /* above base_m */
+    float speed;     /* m/s, over the ground */
+    float press;     /* m/s, (foot) downwards */
+    float tread;     /* m/s, (wheel) of the tread around its axle */
+    float radius_m;  /* (wheel); 0: a foot */
+    float open_rad;  /* (wheel) angle behind the patch from which on the tread is covered */
+    uint id;
+    int low[2]; /* cells of the world around it, low corner */
+    uint width; /* of that rectangle, in cells */
+    uint end;   /* cells of this and all contacts before it */
+    uint pad[2];
 };
 
 /* Parameters of all passes of a tick. */
@@ -108,6 +131,12 @@ struct virga_ground_tick_gpu {
     float exchange_offset[3]; /* as water_offset, to the origin of that simulation */
     int region_low[2];        /* cells of the world that give it, low corner */
     int region_high[2];       /* behind the last ones; not above region_low: none does */
+    /* What rolls and walks. */
+    uint contact_count;
+    uint contact_droplets;  /* that may fly out of a cell; 0: none */
+    float handed_offset[3]; /* from the origin of droplets to the window's low corner at the height base_m */
+    float handed_late_s;    /* s, how much later than the end of this tick they are where the list says */
+    virga_contact_gpu contacts[VIRGA_GROUND_CONTACTS];
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
@@ -148,19 +177,20 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_STARTED        6  /* initial water of new cells */
 #define VIRGA_GROUND_FLOWN          7  /* flew up in splashes */
 #define VIRGA_GROUND_RETURNED       8  /* part of FLOWN that fell back */
-#define VIRGA_GROUND_SPRAY          9  /* part of LANDED that is spray of simulated water */
+#define VIRGA_GROUND_SPRAY          9  /* part of LANDED that is spray of simulated water, wheels and feet */
 #define VIRGA_GROUND_SPRAY_OFF      10 /* part of OFF_GROUND that is */
 #define VIRGA_GROUND_TOUCHED        11 /* from simulated water that touched it */
 #define VIRGA_GROUND_TAKEN          12 /* became particles of a simulation */
 #define VIRGA_GROUND_GIVEN          13 /* came back from it */
 #define VIRGA_GROUND_GIVEN_OFF      14 /* came back where there is no ground */
-#define VIRGA_GROUND_FIRST_MEASURED 15
-#define VIRGA_GROUND_FILM           15 /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES        16 /* free water of puddles */
-#define VIRGA_GROUND_HELD           17 /* in pores */
-#define VIRGA_GROUND_CACHED         18 /* all water of cached tiles, which are outside the window */
-#define VIRGA_GROUND_CELLS          19 /* number of cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS         25
+#define VIRGA_GROUND_THROWN         15 /* thrown by wheels and feet */
+#define VIRGA_GROUND_FIRST_MEASURED 16
+#define VIRGA_GROUND_FILM           16 /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES        17 /* free water of puddles */
+#define VIRGA_GROUND_HELD           18 /* in pores */
+#define VIRGA_GROUND_CACHED         19 /* all water of cached tiles, which are outside the window */
+#define VIRGA_GROUND_CELLS          20 /* number of cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS         26
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
@@ -169,7 +199,8 @@ VIRGA_ASSERT_SIZE(virga_ring_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 240 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_contact_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 264 + 80 * VIRGA_GROUND_CONTACTS + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

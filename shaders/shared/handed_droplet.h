@@ -1,5 +1,5 @@
-/* handed_droplet.h - droplets that leave the water: the water effect writes them (or a host with its own spray), splash
- * takes them and lets them fly. */
+/* handed_droplet.h - droplets that leave the water: the water effect writes them (or wheels and feet on the ground, or
+ * a host with its own spray), splash takes them and lets them fly. */
 #ifndef VIRGA_SHARED_HANDED_DROPLET_H
 #define VIRGA_SHARED_HANDED_DROPLET_H
 
@@ -20,7 +20,7 @@ struct virga_handed_droplet_gpu {
     uint id;           /* of the particle that it comes from; its own is virga_hash2(id, number) */
     uint number;       /* [0; 255], among the droplets of the particle */
     uint water_nl;     /* nl, > 0 */
-    uint pad;
+    float drops;       /* how many of this size it stands for in the picture; 0: one */
 };
 
 /* Head of the list, 32 bytes. The droplets follow. Splash owns the list: at the end of each step it empties it, and

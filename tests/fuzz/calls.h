@@ -183,6 +183,9 @@ void calls_fill_lighting(calls *c, virga_lighting *lighting);
 void calls_fill_image(calls *c, VkFormat format, virga_image *image); /* may be none */
 /* Up to `count` occluders; the number that was filled. */
 uint32_t calls_fill_occluders(calls *c, virga_occluder *occluders, uint32_t count);
+/* The same for wheels and feet. */
+uint32_t calls_fill_wheels(calls *c, virga_wheel *wheels, uint32_t count);
+uint32_t calls_fill_feet(calls *c, virga_foot *feet, uint32_t count);
 void calls_fill_rotation(calls *c, float m[9]);
 void calls_fill_sizes(calls *c, virga_sizes *sizes, double diameters[4], double numbers[4]);
 void calls_fill_target_def(calls *c, virga_target_def *def);

@@ -220,15 +220,48 @@ static void fill_events(calls *c, uint32_t context, virga_ground_step_info *info
     info->returned_droplets = calls_once_in(c, 2) ? c->device->buffer(c) : VK_NULL_HANDLE;
 }
 
+/* Wheels and feet, and the list of splashes of the same context. */
+static void fill_contacts(calls *c, uint32_t context, virga_wheel wheels[3], virga_foot feet[3],
+                          virga_ground_step_info *info)
+{
+    const calls_handle splash = calls_pick(c, CALLS_SPLASH);
+    virga_splash_buffer handed = {0};
+    info->wheel_count = calls_fill_wheels(c, wheels, 3);
+    info->foot_count = calls_fill_feet(c, feet, 3);
+    info->wheels = calls_slip(c, 12) ? NULL : wheels;
+    info->feet = calls_slip(c, 12) ? NULL : feet;
+    if (splash.object && splash.context == context && calls_once_in(c, 2))
+        virga_splash_handed(splash.object, &handed);
+    info->handed = handed.buffer;
+    info->handed_size = handed.size;
+}
+
+void call_virga_default_wheel(calls *c)
+{
+    if (!(virga_default_wheel().radius_m > 0))
+        calls_wrong(c, __func__, "has no radius");
+}
+
+void call_virga_default_foot(calls *c)
+{
+    if (!(virga_default_foot().length_m > 0))
+        calls_wrong(c, __func__, "has no length");
+}
+
 void call_virga_ground_step(calls *c)
 {
     static const calls_member kept[] = {
         CALLS_KEPT(virga_ground_step_info, meshes),       CALLS_KEPT(virga_ground_step_info, mesh_count),
         CALLS_KEPT(virga_ground_step_info, materials),    CALLS_KEPT(virga_ground_step_info, impacts),
         CALLS_KEPT(virga_ground_step_info, splash_rules), CALLS_KEPT(virga_ground_step_info, returned_droplets),
-        CALLS_KEPT(virga_ground_step_info, water),        CALLS_KEPT(virga_ground_step_info, exchange)};
+        CALLS_KEPT(virga_ground_step_info, water),        CALLS_KEPT(virga_ground_step_info, exchange),
+        CALLS_KEPT(virga_ground_step_info, wheels),       CALLS_KEPT(virga_ground_step_info, feet),
+        CALLS_KEPT(virga_ground_step_info, wheel_count),  CALLS_KEPT(virga_ground_step_info, foot_count),
+        CALLS_KEPT(virga_ground_step_info, handed)};
     const calls_handle h = calls_pick(c, CALLS_GROUND), rain = calls_pick(c, CALLS_RAIN);
     virga_occluder meshes[2];
+    virga_wheel wheels[3];
+    virga_foot feet[3];
     VkCommandBuffer cmd;
     virga_ground_step_info info = {.mesh_count = calls_fill_occluders(c, meshes, 2), .meshes = meshes};
     const bool wrong = calls_slip(c, 20);
@@ -240,6 +273,7 @@ void call_virga_ground_step(calls *c)
         info.first_tick = info.ticks = 0;
     fill_events(c, h.context, &info);
     fill_exchange(c, h.context, &info.exchange);
+    fill_contacts(c, h.context, wheels, feet, &info);
     if (!c->device->honest) {
         calls_fill_image(c, VK_FORMAT_R8_UINT, &info.materials.image);
         calls_doubles(c, info.materials.high_m, 2, 0, 10);

@@ -8,9 +8,10 @@ enum { SCENE_RECORDS = CALLS_OUTSIDE };
 static void fill_def(calls *c, virga_scene_def *out, virga_glass_def panes[2])
 {
     static const calls_member kept[] = {
-        CALLS_KEPT(virga_scene_def, panes),       CALLS_KEPT(virga_scene_def, pane_count),
-        CALLS_KEPT(virga_scene_def, rain),        CALLS_BOOL(virga_scene_def, with_ground),
-        CALLS_BOOL(virga_scene_def, with_splash), CALLS_BOOL(virga_scene_def, with_water)};
+        CALLS_KEPT(virga_scene_def, panes),        CALLS_KEPT(virga_scene_def, pane_count),
+        CALLS_KEPT(virga_scene_def, rain),         CALLS_BOOL(virga_scene_def, with_ground),
+        CALLS_BOOL(virga_scene_def, with_splash),  CALLS_BOOL(virga_scene_def, with_water),
+        CALLS_BOOL(virga_scene_def, with_contacts)};
     *out = virga_default_scene_def();
     calls_fill_rain_def(c, &out->rain);
     calls_fill_ground_def(c, &out->ground);
@@ -21,6 +22,7 @@ static void fill_def(calls *c, virga_scene_def *out, virga_glass_def panes[2])
     out->with_ground = calls_once_in(c, 2);
     out->with_splash = calls_once_in(c, 2) && (out->with_ground || calls_once_in(c, 8));
     out->with_water = calls_once_in(c, 4);
+    out->with_contacts = calls_once_in(c, 2) && (out->with_splash || calls_slip(c, 8));
     out->panes = calls_slip(c, 12) ? NULL : panes;
     out->pane_count = calls_once_in(c, 2) ? 0 : calls_below(c, 3);
     if (!c->device->honest && calls_once_in(c, 4))
@@ -128,15 +130,19 @@ static void fill_panes(calls *c, virga_scene_pane panes[2])
 void call_virga_scene_record(calls *c)
 {
     static const calls_member kept[] = {
-        CALLS_KEPT(virga_scene_frame, occluders), CALLS_KEPT(virga_scene_frame, occluder_count),
-        CALLS_KEPT(virga_scene_frame, materials), CALLS_KEPT(virga_scene_frame, view),
-        CALLS_KEPT(virga_scene_frame, views),     CALLS_KEPT(virga_scene_frame, view_count),
-        CALLS_KEPT(virga_scene_frame, panes),     CALLS_KEPT(virga_scene_frame, water),
-        CALLS_KEPT(virga_scene_frame, exchange),  CALLS_BOOL(virga_scene_frame, defer_panes)};
+        CALLS_KEPT(virga_scene_frame, occluders),  CALLS_KEPT(virga_scene_frame, occluder_count),
+        CALLS_KEPT(virga_scene_frame, materials),  CALLS_KEPT(virga_scene_frame, view),
+        CALLS_KEPT(virga_scene_frame, views),      CALLS_KEPT(virga_scene_frame, view_count),
+        CALLS_KEPT(virga_scene_frame, panes),      CALLS_KEPT(virga_scene_frame, water),
+        CALLS_KEPT(virga_scene_frame, exchange),   CALLS_KEPT(virga_scene_frame, wheels),
+        CALLS_KEPT(virga_scene_frame, feet),       CALLS_KEPT(virga_scene_frame, wheel_count),
+        CALLS_KEPT(virga_scene_frame, foot_count), CALLS_BOOL(virga_scene_frame, defer_panes)};
     const calls_handle h = calls_pick(c, CALLS_SCENE);
     virga_view view, views[2];
     virga_scene_pane panes[2];
     virga_occluder occluders[2];
+    virga_wheel wheels[3];
+    virga_foot feet[3];
     VkCommandBuffer cmd;
     const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, SCENE_RECORDS | (wrong ? CALLS_WRONG : 0));
@@ -153,6 +159,10 @@ void call_virga_scene_record(calls *c)
     frame.panes = calls_slip(c, 8) ? NULL : panes;
     frame.occluder_count = calls_fill_occluders(c, occluders, 2);
     frame.occluders = calls_slip(c, 4) && !c->device->honest ? NULL : occluders;
+    frame.wheel_count = calls_fill_wheels(c, wheels, 3);
+    frame.foot_count = calls_fill_feet(c, feet, 3);
+    frame.wheels = calls_slip(c, 12) ? NULL : wheels;
+    frame.feet = calls_slip(c, 12) ? NULL : feet;
     frame.water.particles = c->device->buffer(c);
     frame.water.count = calls_below(c, 100);
     if (calls_once_in(c, 2))

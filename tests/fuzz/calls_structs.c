@@ -91,6 +91,30 @@ uint32_t calls_fill_occluders(calls *c, virga_occluder *occluders, uint32_t coun
     return count;
 }
 
+uint32_t calls_fill_wheels(calls *c, virga_wheel *wheels, uint32_t count)
+{
+    count = calls_below(c, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        wheels[i] = virga_default_wheel();
+        calls_floats(c, wheels[i].velocity_m_s, calls_once_in(c, 2) ? 3 : 0, -40, 40);
+        if (calls_slip(c, 8))
+            CALLS_WILD_ALL(c, &wheels[i]);
+    }
+    return count;
+}
+
+uint32_t calls_fill_feet(calls *c, virga_foot *feet, uint32_t count)
+{
+    count = calls_below(c, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        feet[i] = virga_default_foot();
+        calls_floats(c, feet[i].velocity_m_s, calls_once_in(c, 2) ? 3 : 0, -2, 2);
+        if (calls_slip(c, 8))
+            CALLS_WILD_ALL(c, &feet[i]);
+    }
+    return count;
+}
+
 void calls_fill_sizes(calls *c, virga_sizes *sizes, double diameters[4], double numbers[4])
 {
     calls_doubles(c, diameters, calls_once_in(c, 3) ? 4 : 0, 0, 0.008);

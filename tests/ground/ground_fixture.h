@@ -32,6 +32,12 @@ typedef struct ground_fixture {
     double camera[3];
     float open_rain_mm_h, open_drop_m; /* rain on ground where no drops are counted */
     float impacts_reach_m;
+    const virga_wheel *wheels; /* of the next steps */
+    uint32_t wheel_count;
+    const virga_foot *feet;
+    uint32_t foot_count;
+    VkBuffer handed; /* where they throw droplets */
+    float handed_late_s;
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
     virga_floor_gpu *floors; /* read back */
@@ -226,7 +232,13 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .ticks = ticks,
                                    .open_rain_mm_h = f->open_rain_mm_h,
                                    .open_drop_m = f->open_drop_m,
-                                   .impacts_reach_m = f->impacts_reach_m};
+                                   .impacts_reach_m = f->impacts_reach_m,
+                                   .wheels = f->wheels,
+                                   .wheel_count = f->wheel_count,
+                                   .feet = f->feet,
+                                   .foot_count = f->foot_count,
+                                   .handed = f->handed,
+                                   .handed_late_s = f->handed_late_s};
     ground_fixture_ask_splash(f, &info);
     REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
     if (f->flying)

@@ -11,7 +11,7 @@ for line in map(json.loads, open(f"{sys.argv[1]}/stats.jsonl")):
     nl = {name: round(1000 * value) for name, value in ground.items()}
     came = sum(nl[name] for name in "start rained_total spray spray_off_ground touched given".split())
     went = sum(nl[name] for name in "absorbed film puddle run_off evaporated in_air off_ground cached evicted "
-               "taken".split())
+               "taken thrown".split())
     if came != went:
         wrong.append(f"frame {line['frame']}: {came} nl came to the ground, {went} nl are there or gone: {ground}")
     # Particles are whole: what the solver has is a multiple of one.

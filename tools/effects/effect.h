@@ -157,7 +157,7 @@ typedef struct tool_count {
     double (*value)(const void *state);
 } tool_count;
 
-#define TOOL_BUDGET_ROWS 13
+#define TOOL_BUDGET_ROWS 14
 
 /* A budget of water, in nanolitres. */
 typedef struct tool_budget {

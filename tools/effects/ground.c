@@ -385,10 +385,11 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* start + rained_total + spray + spray_off_ground + touched + given = taken + off_ground + absorbed + film + puddle +
- * run_off + evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in splashes
- * and has not fallen back yet; spray is of simulated water, and has landed; `touched` is what ground took from such
- * water, and `taken` and `given` is what a solver of water took from the ground and gave to it. */
+/* start + rained_total + spray + spray_off_ground + touched + given = taken + thrown + off_ground + absorbed + film +
+ * puddle + run_off + evaporated + cached + evicted + in_air, to the last nanolitre. `in_air` is water that flew up in
+ * splashes and has not fallen back yet; spray is of simulated water, wheels and feet, and has landed; `touched` is what
+ * ground took from such water, `taken` and `given` is what a solver of water took from the ground and gave to it, and
+ * `thrown` is what wheels and feet threw. */
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
@@ -404,6 +405,7 @@ static void write_water(const virga_ground_stats *now, jsonl *stats)
     jsonl_number(stats, "taken", (double)now->taken_nl * 1e-3);
     jsonl_number(stats, "given", (double)now->given_nl * 1e-3);
     jsonl_number(stats, "given_off_ground", (double)now->given_off_ground_nl * 1e-3);
+    jsonl_number(stats, "thrown", (double)now->thrown_nl * 1e-3);
     jsonl_number(stats, "spray", (double)now->spray_nl * 1e-3);
     jsonl_number(stats, "spray_off_ground", (double)now->spray_off_ground_nl * 1e-3);
     jsonl_number(stats, "in_air", (double)(now->flown_nl - now->returned_nl) * 1e-3);

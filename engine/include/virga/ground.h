@@ -30,10 +30,12 @@
 #ifndef VIRGA_GROUND_H
 #define VIRGA_GROUND_H
 
+#include <virga/contact.h>
 #include <virga/material.h>
 #include <virga/mesh.h>
 #include <virga/shared/ground_cell.h>
 #include <virga/shared/ground_limits.h>
+#include <virga/shared/handed_droplet.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/landing.h>
 #include <virga/shared/particle.h>
@@ -132,6 +134,11 @@ typedef struct virga_ground_settings {
     /* [0; 50] depth of rain (mm) that had gathered in the hollows when the ground was created. Above 0, all pores were
      * full, and humps held half of what roughness holds back. Default 0: dry. */
     float start_water_mm;
+
+    /* [0; 64] droplets at most that a wheel or a foot throws out of a cell in a tick. Each stands for many of its size.
+     * 0: none fly, all water is pushed aside. Costs what droplets cost (virga/splash.h): the four wheels of a car throw
+     * a hundred times that number in a tick at 60 km/h, and each is in the air for half a second. Default 12. */
+    uint32_t contact_droplets;
 
     /* Sums the water of all cells in each step, for the statistics. Costs one pass over all cells. Default true. */
     bool measure;
@@ -275,6 +282,26 @@ typedef struct virga_ground_step_info {
     /* (optional) Water that goes into a simulation and comes back. Costs a pass over the cells of the region in one
      * workgroup (about 0.1 ms for 10,000 cells on software Vulkan), and two over the particles that come back. */
     virga_ground_exchange exchange;
+
+    /* (optional) What rolls and walks over the ground, see virga/contact.h: where it is at the end of the step's last
+     * tick. At most VIRGA_GROUND_MAX_CONTACTS together. Costs two passes over the cells near them in each tick, the
+     * first in one workgroup. */
+    const virga_wheel *wheels;
+    uint32_t wheel_count;
+    const virga_foot *feet;
+    uint32_t foot_count;
+
+    /* (optional) Where they throw droplets, behind those that are there: a virga_handed_droplets_gpu and the droplets
+     * after it, as virga_splash_handed returns it; a storage buffer, ready to be read and written by compute shaders.
+     * What finds no room there stays in its cell. NULL: nothing flies. */
+    VkBuffer handed;
+
+    /* A multiple of the device's minStorageBufferOffsetAlignment and of 4; bytes from there, 0: all of the buffer. */
+    VkDeviceSize handed_offset, handed_size;
+
+    /* As virga_splash_step_info has them. */
+    double handed_origin_m[3];
+    float handed_late_s;
 } virga_ground_step_info;
 
 /* Lets the impacts land, runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read by
@@ -416,7 +443,7 @@ VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer,
 
 /* The newest statistics of completed frames. Water is in nanolitres, since creation or, in the last group, now. While
  * `measure` is on, and as long as rain drops no impact for lack of room:
- *     start + landed + touched + given - taken =
+ *     start + landed + touched + given - taken - thrown =
  *         film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
 typedef struct virga_ground_stats {
     /* 0: none yet. */
@@ -432,7 +459,8 @@ typedef struct virga_ground_stats {
     /* Flown up in splashes, and fallen back. The difference is in the air. */
     uint64_t flown_nl, returned_nl;
 
-    /* Spray of simulated water that fell on cells, and that fell elsewhere: parts of landed_nl and off_ground_nl. */
+    /* Spray of simulated water, of wheels and of feet that fell on cells, and that fell elsewhere: parts of landed_nl
+     * and off_ground_nl. */
     uint64_t spray_nl, spray_off_ground_nl;
 
     /* Taken from simulated water that touched it. The simulation keeps its volume. */
@@ -441,6 +469,9 @@ typedef struct virga_ground_stats {
     /* Became particles of a simulation, and came back from it: to cells, and where there is no ground (or a cell is
      * full). What is neither is in the simulation, or in a list between the two (virga/shared/exchange.h). */
     uint64_t taken_nl, given_nl, given_off_ground_nl;
+
+    /* Thrown out of cells by wheels and feet. It comes back as spray. */
+    uint64_t thrown_nl;
 
     /* Gone: sunk in, run into drains, evaporated, dropped with tiles. */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, evicted_nl;

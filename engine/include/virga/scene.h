@@ -55,6 +55,10 @@ typedef struct virga_scene_def {
 
     virga_water_def water;
 
+    /* The wheels and feet of frames throw droplets: room for 65536 of them in a frame, 3 MiB. Else they push water
+     * aside and throw none. Needs ground and splashes. Default false. */
+    bool with_contacts;
+
     /* [1; VIRGA_MAX_VIEWS] views of a frame. It is copied to all effects, and costs what their max_views costs. Default
      * 1. */
     uint32_t max_views;
@@ -180,6 +184,13 @@ typedef struct virga_scene_frame {
      * particles at rest become water of the ground again, see virga_fluid_exchange_get. The ground then gets no film
      * from the particles that touch it, as all water is counted. Not used in a scene without ground. */
     virga_scene_exchange exchange;
+
+    /* (optional) What rolls and walks over the ground, where it is at the end of the frame: at most
+     * VIRGA_GROUND_MAX_CONTACTS together, see virga/contact.h. Not used in a scene without ground. */
+    const virga_wheel *wheels;
+    uint32_t wheel_count;
+    const virga_foot *feet;
+    uint32_t foot_count;
 
     /* false: panes are prepared in virga_scene_record, which reads view->color if it is given. So it must hold a
      * picture by then; in a game that of the previous frame is fine. true: panes are stepped, but not prepared. Call

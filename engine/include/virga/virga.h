@@ -2,6 +2,7 @@
 #ifndef VIRGA_VIRGA_H
 #define VIRGA_VIRGA_H
 #include <virga/base.h>
+#include <virga/contact.h>
 #include <virga/drops.h>
 #include <virga/environment.h>
 #include <virga/fluid.h>

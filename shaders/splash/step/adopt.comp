@@ -39,7 +39,7 @@ void main()
     droplet.kind = SPRAY_KIND | (from.number & 255u) << 16;
     droplet.id = from.id;
     droplet.water_nl = from.water_nl;
-    droplet.weight_free = halves(1.0, 0.0);
+    droplet.weight_free = halves(from.drops > 1.0 ? min(from.drops, 6e4) : 1.0, 0.0);
     const uvec4 texels[4] = texels_of(droplet);
     for (uint i = 0u; i < 4u; i++)
         droplets[4u * (state.staying + index) + i] = texels[i];

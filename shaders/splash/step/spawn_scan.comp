@@ -12,6 +12,7 @@
 #include "splash/shape.glsl"
 #include "returns.glsl"
 #include "spawn_start.glsl"
+#include "handed.glsl"
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
@@ -73,6 +74,13 @@ uint make_room(uint lane, uint first, uint end, uint end_after)
     return kept;
 }
 
+// Droplets that are handed over come at the end of the step.
+uint room_beside_handed(uint room)
+{
+    const uint waiting = tick.max_handed > 0u ? min(handed_head.count, tick.max_handed) : 0u;
+    return room - min(waiting, room);
+}
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = spawn_count();
@@ -91,7 +99,7 @@ void main()
         full_rank = NO_SLOT;
     uvec2 found;
     uvec2 index = scan_group(sum, found);
-    const uint room = tick.max_droplets - staying;
+    const uint room = room_beside_handed(tick.max_droplets - staying);
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
             continue;

@@ -26,7 +26,7 @@ void hand_over(virga_leaver_gpu own, uint i, vec3 position, vec3 velocity, uint 
     droplet.id = own.id;
     droplet.number = i;
     droplet.water_nl = water_nl;
-    droplet.pad = 0u;
+    droplet.drops = 0.0;
     handed[own.first + i] = droplet;
 }
 

@@ -121,12 +121,13 @@ bool ground_fill_budget(const void *state, uint32_t index, tool_budget *budget)
     virga_ground_stats_get(ground->ground, &g);
     const uint64_t all = g.start_nl + g.landed_nl + g.touched_nl + g.given_nl;
     const uint64_t found = g.film_nl + g.puddles_nl + g.held_nl + g.cached_nl + g.infiltrated_nl + g.run_off_nl +
-                           g.evaporated_nl + g.evicted_nl + g.taken_nl;
+                           g.evaporated_nl + g.evicted_nl + g.taken_nl + g.thrown_nl;
     *budget = (tool_budget){.title = "Ground",
                             .rows = {{"there at the start", g.start_nl, all},
                                      {"landed", g.landed_nl, all},
                                      {"from simulated water", g.touched_nl + g.given_nl, all},
                                      {"into simulated water", g.taken_nl, all},
+                                     {"thrown by wheels and feet", g.thrown_nl, all},
                                      {"film", g.film_nl, all},
                                      {"puddles", g.puddles_nl, all},
                                      {"in pores", g.held_nl, all},
@@ -136,6 +137,6 @@ bool ground_fill_budget(const void *state, uint32_t index, tool_budget *budget)
                                      {"evaporated", g.evaporated_nl, all},
                                      {"evicted", g.evicted_nl, all},
                                      {"not accounted for", all > found ? all - found : found - all, 0}},
-                            .row_count = 13};
+                            .row_count = 14};
     return true;
 }
