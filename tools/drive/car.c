@@ -6,14 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WHEELBASE_M    2.6
-#define FRONT_AXLE_M   (-1.33)
-#define REAR_AXLE_M    1.27
-#define WHEEL_X_M      0.735
-#define WHEEL_RADIUS_M 0.315
-#define MAX_STEER      0.75 /* rad */
-#define STEP_M         0.5  /* between points of the loaded track */
-#define MAX_POINTS     65536
+#define WHEELBASE_M  2.6
+#define FRONT_AXLE_M (-1.33)
+#define REAR_AXLE_M  1.27
+#define WHEEL_X_M    0.735
+#define MAX_STEER    0.75 /* rad */
+#define STEP_M       0.5  /* between points of the loaded track */
+#define MAX_POINTS   65536
 
 /* ---- the track */
 
@@ -223,7 +222,7 @@ void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
         steer_by_keys(c, keys, &gas, &steer);
     c->steer += (fmin(fmax(steer, -MAX_STEER), MAX_STEER) - c->steer) * fmin(10 * dt_s, 1);
     c->speed_m_s = fmin(fmax(c->speed_m_s + gas * dt_s, 0), 60);
-    c->rolled = turned(c->rolled + c->speed_m_s / WHEEL_RADIUS_M * dt_s);
+    c->rolled = turned(c->rolled + c->speed_m_s / (double)CAR_WHEEL_RADIUS_M * dt_s);
     c->heading = turned(c->heading + c->speed_m_s / WHEELBASE_M * tan(c->steer) * dt_s);
     c->position_m[0] -= sin(c->heading) * c->speed_m_s * dt_s;
     c->position_m[2] -= cos(c->heading) * c->speed_m_s * dt_s;
@@ -280,7 +279,8 @@ static void axes_to_world(const car *c, double local[9], float axes[9])
 void car_wheel(const car *c, int wheel, double position_m[3], float axes[9])
 {
     const bool right = wheel % 2, front = wheel < 2;
-    const double axle[3] = {right ? WHEEL_X_M : -WHEEL_X_M, WHEEL_RADIUS_M, front ? FRONT_AXLE_M : REAR_AXLE_M};
+    const double axle[3] = {right ? WHEEL_X_M : -WHEEL_X_M, (double)CAR_WHEEL_RADIUS_M,
+                            front ? FRONT_AXLE_M : REAR_AXLE_M};
     /* It rolls about its axle; on the left it is mirrored by half a turn; then it is steered about the vertical axis.
      * */
     const double roll = right ? c->rolled : -c->rolled, turn = (front ? c->steer : 0) + (right ? 0 : M_PI);

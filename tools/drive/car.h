@@ -73,6 +73,9 @@ car_part car_part_of(const char *material);
 /* Position and axes of wheels 0 to 3 in the world, with steering and rolling. */
 void car_wheel(const car *c, int wheel, double position_m[3], float axes[9]);
 
+#define CAR_WHEEL_RADIUS_M 0.315f
+#define CAR_WHEEL_WIDTH_M  0.19f
+
 /* The windshield: the middle of its lower edge and its size, as assets/make_car.py has them; the driver's eye. */
 extern const double car_windshield_m[3], car_eye_m[3];
 #define CAR_GLASS_WIDTH_M  1.45f

@@ -156,6 +156,7 @@ static bool create_rain(drive *d)
     def.rain.occluder_strides[0] = sizeof(host_vertex);
     def.with_ground = true;
     def.with_splash = true;
+    def.with_contacts = true; /* the wheels throw water */
     def.panes = &windshield;
     def.pane_count = 1;
     virga_scene_cost(&def, d->kind, d->stage.width, d->stage.height, &d->expected);
@@ -314,6 +315,24 @@ static virga_scene_pane place_windshield(const drive *d)
     return pane;
 }
 
+/* The wheels on the wet road. The body covers the tread behind them. */
+static void place_wheels(const drive *d, virga_wheel wheels[4])
+{
+    for (int i = 0; i < 4; i++) {
+        float axes[9];
+        wheels[i] = virga_default_wheel();
+        wheels[i].id = (uint32_t)i;
+        wheels[i].radius_m = CAR_WHEEL_RADIUS_M;
+        wheels[i].width_m = CAR_WHEEL_WIDTH_M;
+        car_wheel(&d->car, i, wheels[i].contact_m, axes);
+        for (int axis = 0; axis < 3; axis++) {
+            wheels[i].contact_m[axis] -= (double)(CAR_WHEEL_RADIUS_M * d->car.axes[3 + axis]);
+            wheels[i].velocity_m_s[axis] = d->car.velocity_m_s[axis];
+            wheels[i].axle[axis] = axes[axis];
+        }
+    }
+}
+
 static virga_image seen(const host_image *image, VkImageLayout layout)
 {
     return (virga_image){.image = image->image,
@@ -349,7 +368,11 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 {
     const virga_view view = look(d, dt_s);
     const virga_scene_pane pane = place_windshield(d);
+    virga_wheel wheels[4];
     virga_scene_frame frame = {.dt_s = dt_s, .view = &view, .panes = &pane, .defer_panes = true};
+    place_wheels(d, wheels);
+    frame.wheels = wheels;
+    frame.wheel_count = 4;
     frame.occluders = d->occluders;
     frame.occluder_count = fill_occluders(d);
     frame.step_budget_ms = d->budget_ms;
