@@ -297,6 +297,7 @@ static const virga_effect_pass passes[] = {
     STEP(capture_mark),
     STEP(capture),
     STEP(wipe_film),
+    STEP(lay_film),
     STEP(split_drops),
     STEP(empty_bins),
     STEP(particle_grid),

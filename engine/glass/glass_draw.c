@@ -178,6 +178,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->drop_nl_of_m3 = (float)(glass_cap_volume(angle_deg) * 1e12);
     look->cap_height = (float)tan(angle_deg * PI / 360);
     look->particle_m = s->particle_radius_mm * 1e-3f;
+    look->particles_as_given = s->style == VIRGA_GLASS_STYLE_PAPER;
     look->impact_s = s->impact_s;
     look->film_break_s = s->film_break_s;
     look->density = (uint32_t)s->density;

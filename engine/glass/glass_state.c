@@ -93,6 +93,10 @@ void glass_check_state(const void *object, virga_state_check *check)
     check_groups(glass, saved, check);
     for (uint32_t i = 0; !check->failed && i < saved->shown; i++)
         virga_state_expect(check, "glass.list", listed[i], 0, glass->def.max_drops - 1.0);
+    for (uint32_t i = 0; i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS && !check->failed; i++) {
+        virga_state_expect(check, "glass.state.asked_nl", saved->asked_nl[i], 0, 0);
+        virga_state_expect(check, "glass.state.given_nl", saved->given_nl[i], 0, 0);
+    }
     /* Lists of particles are empty between ticks. A list that is not may have no end. */
     for (uint32_t i = 0; i < tick.grid_columns * tick.grid_rows && !check->failed; i++)
         virga_state_expect(check, "glass.grid", grid[i], 0, 0);

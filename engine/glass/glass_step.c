@@ -420,8 +420,10 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
         if (glass->blades.blades[i].side == 0 || !blade_bounds(glass, &glass->blades.blades[i], constants + 1))
             continue;
         push(glass, cmd, constants, 5);
-        virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, (constants[3] + 15) / 16,
-                          (constants[4] + 15) / 16);
+        const uint32_t groups[2] = {(constants[3] + 15) / 16, (constants[4] + 15) / 16};
+        virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, groups[0], groups[1]);
+        virga_compute_barrier(glass->base.context, cmd);
+        virga_dispatch_2d(glass->base.context, cmd, glass->lay_film, groups[0], groups[1]);
         virga_indirect_barrier(glass->base.context, cmd);
     }
     over(glass, cmd, glass->split_drops, ACTIVE);

@@ -158,6 +158,8 @@ struct virga_glass_state_gpu {
     virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (bins of the blades included) */
     /* nl, film collected along each blade: VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS */
     uint bins_nl[512];
+    uint asked_nl[512];   /* nl of film that cells behind the blades need in this tick, by bin */
+    uint given_nl[512];   /* nl of it that the bins have given; still in bins_nl until they are emptied */
     uint shown;           /* the first so many slots of the list may hold drops at the tick's end */
     uint shown_groups[3]; /* workgroups of a dispatch over them */
     uint film_blocks;     /* listed blocks, which may have film */
@@ -202,8 +204,8 @@ VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 296);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 2348);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 2364);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 6444);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 6460);
 #undef uint
 #endif
 

@@ -44,15 +44,16 @@ struct virga_glass_picture_gpu {
     float share;      /* elapsed fraction of the newest tick at the drawn time */
     float late_s;     /* s, <= 0: drawn time minus the time of the newest tick */
     uint tick;
-    float tick_s;        /* s, length of a tick */
-    float gravity[3];    /* m/s^2, in the pane's frame */
-    float drop_nl_of_m3; /* spherical cap, see virga_glass_tick_gpu */
-    float cap_height;    /* of a spherical cap, in radii of its base */
-    float particle_m;    /* m, radius */
-    float impact_s;      /* s, time in which a landed drop contracts to its final shape */
-    float film_break_s;  /* s, time after which a film has broken into beads */
-    uint density;        /* virga_glass_density */
-    uint weighted;       /* virga_glass_blend */
+    float tick_s;            /* s, length of a tick */
+    float gravity[3];        /* m/s^2, in the pane's frame */
+    float drop_nl_of_m3;     /* spherical cap, see virga_glass_tick_gpu */
+    float cap_height;        /* of a spherical cap, in radii of its base */
+    float particle_m;        /* m, radius */
+    uint particles_as_given; /* 1: particles are shown with that radius, as in the paper */
+    float impact_s;          /* s, time in which a landed drop contracts to its final shape */
+    float film_break_s;      /* s, time after which a film has broken into beads */
+    uint density;            /* virga_glass_density */
+    uint weighted;           /* virga_glass_blend */
     uint compress_steps;
     float compress_from; /* V0 */
     float compress_step; /* fraction of V0 */

@@ -201,10 +201,11 @@ typedef struct virga_glass_wiper {
     /* (host) Angle at the end of the next step. The arm moves to it at constant speed from the one before. */
     float host_deg;
 
-    /* [0; 0.5] thickness of the film (mm) that a worn blade leaves behind. Default 0.004. */
+    /* [0; 0.5] mean thickness of the film (mm) that the blade leaves behind, of water that it has wiped up: a dry blade
+     * leaves none. After film_break_s it breaks into fine drops. Default 0.004. */
     float film_mm;
 
-    /* [0; 1] 0 wipes evenly; worn blades leave streaks. Default 0.3. */
+    /* [0; 1] 0 wipes evenly; worn blades leave streaks, which are arcs on the pane. Default 0.3. */
     float wear;
 } virga_glass_wiper;
 

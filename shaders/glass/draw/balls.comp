@@ -142,11 +142,18 @@ void emit_balls(vec2 sag, float whole, float left)
     }
 }
 
+// Water that a blade pushes is higher than a drop at rest, so it is narrower: between the particle of the paper and the
+// cap with its water. Particles side by side are one ridge then, without a notch between them.
+float particle_radius(float water_nl)
+{
+    return look.particles_as_given != 0u ? look.particle_m : sqrt(look.particle_m * cap_radius(water_nl));
+}
+
 void emit_drop(uint slot)
 {
     const virga_glass_drop_gpu at = drops[slot];
     const bool particle = (at.kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE;
-    const float radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
+    const float radius = particle ? particle_radius(float(at.water_nl)) : cap_radius(float(at.water_nl));
     for (int i = 0; i < VIRGA_GLASS_DROP_BALLS; i++)
         radii[i] = 0.0;
     const vec2 middle =
