@@ -12,6 +12,7 @@ static void offscreen_destroy(virga_context *context, virga_resource *resource)
     for (uint32_t i = 0; i < VIRGA_OFFSCREEN_MAX_LAYERS; i++)
         VIRGA_DESTROY(context, Framebuffer, offscreen->framebuffers[i]);
     VIRGA_DESTROY(context, RenderPass, offscreen->pass);
+    VIRGA_DESTROY(context, RenderPass, offscreen->again);
     virga_free(&context->heap, offscreen);
 }
 
@@ -40,15 +41,15 @@ error:
     return result;
 }
 
-static VkAttachmentDescription describe_attachment(VkFormat format, VkImageLayout layout)
+static VkAttachmentDescription describe_attachment(VkFormat format, VkImageLayout layout, bool keep)
 {
     return (VkAttachmentDescription){.format = format,
                                      .samples = VK_SAMPLE_COUNT_1_BIT,
-                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                     .loadOp = keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
                                      .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
                                      .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
                                      .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                     .initialLayout = keep ? layout : VK_IMAGE_LAYOUT_UNDEFINED,
                                      .finalLayout = layout};
 }
 
@@ -72,7 +73,8 @@ static void describe_dependencies(const virga_offscreen_def *def, VkSubpassDepen
     dependencies[1] = (VkSubpassDependency){0, VK_SUBPASS_EXTERNAL, draws, def->readers, writes, reads, 0};
 }
 
-static virga_result create_pass(virga_context *context, const virga_offscreen_def *def, virga_offscreen *made)
+static virga_result create_pass(virga_context *context, const virga_offscreen_def *def, const virga_offscreen *made,
+                                bool keep, VkRenderPass *pass)
 {
     virga_result result = VIRGA_OK;
     VkAttachmentDescription attachments[MAX_ATTACHMENTS];
@@ -80,11 +82,11 @@ static virga_result create_pass(virga_context *context, const virga_offscreen_de
     const VkAttachmentReference depth = {made->color_count, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     VkSubpassDependency dependencies[2];
     for (uint32_t i = 0; i < made->color_count; i++) {
-        attachments[i] = describe_attachment(def->colors[i], def->layout);
+        attachments[i] = describe_attachment(def->colors[i], def->layout, keep);
         colors[i] = (VkAttachmentReference){i, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     }
     if (def->depth)
-        attachments[made->color_count] = describe_attachment(def->depth, def->layout);
+        attachments[made->color_count] = describe_attachment(def->depth, def->layout, keep);
     describe_dependencies(def, dependencies);
     const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                           .colorAttachmentCount = made->color_count,
@@ -97,7 +99,7 @@ static virga_result create_pass(virga_context *context, const virga_offscreen_de
                                          .pSubpasses = &subpass,
                                          .dependencyCount = 2,
                                          .pDependencies = dependencies};
-    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, &made->pass));
+    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, pass));
     context->objects++;
 error:
     return result;
@@ -138,7 +140,8 @@ virga_result virga_offscreen_create(virga_context *context, const virga_offscree
     while (made->color_count < VIRGA_OFFSCREEN_MAX_COLORS && def->colors[made->color_count])
         made->color_count++;
     TRY(create_images(context, def, made));
-    TRY(create_pass(context, def, made));
+    TRY(create_pass(context, def, made, false, &made->pass));
+    TRY(create_pass(context, def, made, true, &made->again));
     TRY(create_framebuffers(context, def->layers, made));
     *offscreen = made;
     return VIRGA_OK;
@@ -147,21 +150,33 @@ error:
     return result;
 }
 
-void virga_offscreen_begin(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
-                           uint32_t layer)
+static void begin(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen, VkRenderPass pass,
+                  uint32_t layer)
 {
     VkClearValue clears[MAX_ATTACHMENTS] = {{.color = {.uint32 = {0}}}};
     clears[offscreen->color_count].depthStencil.depth = offscreen->reversed_depth ? 0 : 1;
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = offscreen->pass,
-                                         .framebuffer = offscreen->framebuffers[layer],
-                                         .renderArea = {{0, 0}, offscreen->extent},
-                                         .clearValueCount = offscreen->color_count + (offscreen->depth ? 1 : 0),
-                                         .pClearValues = clears};
+    const VkRenderPassBeginInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                        .renderPass = pass,
+                                        .framebuffer = offscreen->framebuffers[layer],
+                                        .renderArea = {{0, 0}, offscreen->extent},
+                                        .clearValueCount = offscreen->color_count + (offscreen->depth ? 1 : 0),
+                                        .pClearValues = clears};
     const VkViewport viewport = {0, 0, (float)offscreen->extent.width, (float)offscreen->extent.height, 0, 1};
-    context->vk.CmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    context->vk.CmdBeginRenderPass(cmd, &info, VK_SUBPASS_CONTENTS_INLINE);
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &begin.renderArea);
+    context->vk.CmdSetScissor(cmd, 0, 1, &info.renderArea);
+}
+
+void virga_offscreen_begin(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
+                           uint32_t layer)
+{
+    begin(context, cmd, offscreen, offscreen->pass, layer);
+}
+
+void virga_offscreen_resume(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
+                            uint32_t layer)
+{
+    begin(context, cmd, offscreen, offscreen->again, layer);
 }
 
 void virga_offscreen_end(virga_context *context, VkCommandBuffer cmd)

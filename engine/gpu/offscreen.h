@@ -26,7 +26,8 @@ typedef struct virga_offscreen {
     uint32_t color_count;
     VkExtent2D extent;
     bool reversed_depth;
-    VkRenderPass pass;
+    VkRenderPass pass;  /* clears first */
+    VkRenderPass again; /* keeps what is there; compatible */
     VkFramebuffer framebuffers[VIRGA_OFFSCREEN_MAX_LAYERS];
 } virga_offscreen;
 
@@ -38,6 +39,10 @@ void virga_offscreen_retire(virga_context *context, virga_offscreen **offscreen)
  * viewport is the whole layer. */
 void virga_offscreen_begin(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
                            uint32_t layer);
+
+/* The same, but the images keep what an earlier draw into the layer has left there. */
+void virga_offscreen_resume(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
+                            uint32_t layer);
 
 /* Ends it. Readers wait for the draw. */
 void virga_offscreen_end(virga_context *context, VkCommandBuffer cmd);

@@ -151,6 +151,8 @@ enum {
     COUNT_PYRAMID,
     COUNT_PYRAMID_COLUMNS,
     COUNT_PYRAMID_ROWS,
+    COUNT_COLUMNS,
+    COUNT_ROWS,
     COUNT_VIEWS,
 };
 
@@ -202,6 +204,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
     counts[COUNT_PYRAMID_COLUMNS] = water_pyramid_extent(def).width;
     counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
+    counts[COUNT_COLUMNS] = def->max_width;
+    counts[COUNT_ROWS] = def->max_height;
     counts[COUNT_VIEWS] = WATER_MAX_VIEWS;
 }
 
@@ -269,6 +273,8 @@ static const virga_effect_image images[] = {
     {"water.thickness", AT(picture.thickness), VK_FORMAT_R32_SFLOAT, COLOR,
      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_PYRAMID_COLUMNS, COUNT_PYRAMID_ROWS, 1,
      VIRGA_FIRST_STORAGE, .per_view = true},
+    {"water.gaps", AT(picture.gaps), VK_FORMAT_R32_SFLOAT, COLOR,
+     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_COLUMNS, COUNT_ROWS, 1, VIRGA_FIRST_STORAGE},
     BLANK_DEPTH("water.blank_depth", picture.blank_depth),
     BLANK_COLOR("water.blank_color", picture.blank_color),
 };
@@ -404,6 +410,7 @@ static const virga_effect_pass passes[] = {
     PICTURE(splat_scan),
     PICTURE(splat_compact),
     PICTURE(splat_write),
+    PICTURE(splat_gaps),
     PICTURE(divide_mark),
     PICTURE(divide_scan),
     PICTURE(divide_write),

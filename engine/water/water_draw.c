@@ -51,6 +51,8 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     BUFFER_IN(COMPUTE | VERTEX, picture.parts),                              /* 25 */
     TEXEL_BUFFER_IN(VERTEX, picture.parts),                                  /* 26 */
     [BIND_COLORS] = {SAMPLED, FRAGMENT},                                     /* 27 */
+    STORAGE_IMAGE(picture.gaps),                                             /* 28 */
+    SAMPLED_IMAGE(FRAGMENT, picture.gaps),                                   /* 29 */
 };
 
 /* ---- prepare */
@@ -174,20 +176,45 @@ static void record_list(virga_water *water, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
-/* Two draws into images: the depth of splats, then sums. The arguments of the second are at an offset in `prepared`. */
-static void record_sums(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look,
-                        const virga_offscreen *images, const virga_pipeline *const pipelines[2], VkDeviceSize second)
+/* What splats or their parts are added up in, and the passes that do it. */
+typedef struct sums_passes {
+    const virga_offscreen *images;
+    const virga_pipeline *depth, *sum, *behind;
+    VkDeviceSize sum_arguments; /* of the draws of the second and third pass, in `prepared` */
+} sums_passes;
+
+static void record_draw(virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline, VkDeviceSize arguments)
 {
     virga_context *context = water->base.context;
-    const water_picture *picture = &water->picture;
-    virga_offscreen_begin(context, cmd, images, 0);
-    virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
-    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, picture->view_offset);
-    for (int i = 0; i < 2; i++) {
-        if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]))
-            context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, i ? second : 0, 1, 0);
-    }
-    virga_offscreen_end(context, cmd);
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline))
+        context->vk.CmdDrawIndirect(cmd, water->picture.prepared->buffer, arguments, 1, 0);
+}
+
+static void set_area(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look)
+{
+    virga_set_draw_area(water->base.context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, water->picture.view_offset);
+}
+
+/* The depth of the nearest water, and the sums of what lies on it. */
+static void record_sums(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look,
+                        const sums_passes *passes)
+{
+    virga_offscreen_begin(water->base.context, cmd, passes->images, 0);
+    set_area(water, cmd, set, look);
+    record_draw(water, cmd, passes->depth, 0);
+    record_draw(water, cmd, passes->sum, passes->sum_arguments);
+    virga_offscreen_end(water->base.context, cmd);
+}
+
+/* What is behind it, where it leaves gaps. */
+static void record_behind(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set,
+                          const virga_water_look_gpu *look, const sums_passes *passes)
+{
+    virga_offscreen_resume(water->base.context, cmd, passes->images, 0);
+    set_area(water, cmd, set, look);
+    record_draw(water, cmd, passes->behind, passes->sum_arguments);
+    virga_offscreen_end(water->base.context, cmd);
 }
 
 static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set,
@@ -195,9 +222,12 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
 {
     virga_context *context = water->base.context;
     const water_picture *picture = &water->picture;
-    const virga_pipeline *const pipelines[2] = {picture->splat_depth, picture->splat_sum};
+    const sums_passes passes = {picture->sums, picture->splat_depth, picture->splat_sum, picture->splat_behind, 0};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.splats");
-    record_sums(water, cmd, set, look, picture->sums, pipelines, 0);
+    record_sums(water, cmd, set, look, &passes);
+    virga_dispatch_2d(context, cmd, picture->splat_gaps, (look->width + 7) / 8, (look->height + 7) / 8);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_FRAGMENTS);
+    record_behind(water, cmd, set, look, &passes);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -207,7 +237,8 @@ static void record_parts(virga_water *water, VkCommandBuffer cmd, VkDescriptorSe
 {
     virga_context *context = water->base.context;
     const water_picture *picture = &water->picture;
-    const virga_pipeline *const pipelines[2] = {picture->part_depth, picture->part_sum};
+    const sums_passes passes = {picture->colors, picture->part_depth, picture->part_sum, picture->part_behind,
+                                offsetof(virga_water_prepared_gpu, part_vertices)};
     const VkPipelineStageFlags color = view->color.view ? view->color.before.stage : 0;
     virga_pass_scope scope = virga_pass_begin(context, cmd, "water.divide");
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | color, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
@@ -219,7 +250,8 @@ static void record_parts(virga_water *water, VkCommandBuffer cmd, VkDescriptorSe
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_VERTICES);
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "water.parts");
-    record_sums(water, cmd, set, look, picture->colors, pipelines, offsetof(virga_water_prepared_gpu, part_vertices));
+    record_sums(water, cmd, set, look, &passes);
+    record_behind(water, cmd, set, look, &passes);
     virga_pass_end(context, cmd, scope);
 }
 

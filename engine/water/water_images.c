@@ -38,12 +38,13 @@ VkDeviceSize water_images_bytes(const virga_water_def *def)
 
 /* ---- creation */
 
-/* Two draws into the same images: the depth of the nearest water by its splats, then the sums of what lies on it. */
+/* Three draws into the same images: the depth of the nearest water by its splats, the sums of what lies on it, then the
+ * sums of what is behind where it leaves gaps. */
 typedef struct water_sums {
     const virga_offscreen *images;
-    virga_spirv vertex, fragment; /* of the sums */
-    const char *depth_name, *sum_name;
-    virga_pipeline **depth, **sum;
+    virga_spirv vertex, fragment, behind; /* of the sums */
+    const char *depth_name, *sum_name, *behind_name;
+    virga_pipeline **depth_pipeline, **sum_pipeline, **behind_pipeline;
 } water_sums;
 
 static virga_result create_pipelines(virga_water *water, const water_sums *sums)
@@ -62,14 +63,18 @@ static virga_result create_pipelines(virga_water *water, const water_sums *sums)
                               .constant = 1,
                               .group = &water->base.passes,
                               .name = sums->depth_name};
-    TRY(virga_graphics_pipeline_create(context, &def, sums->depth));
+    TRY(virga_graphics_pipeline_create(context, &def, sums->depth_pipeline));
     def.vertex = sums->vertex;
     def.fragment = sums->fragment;
     def.no_color = def.depth_write = false;
     def.blend_add = def.add_all = true;
     def.constant = 0;
     def.name = sums->sum_name;
-    TRY(virga_graphics_pipeline_create(context, &def, sums->sum));
+    TRY(virga_graphics_pipeline_create(context, &def, sums->sum_pipeline));
+    def.fragment = sums->behind;
+    def.reversed_depth = false; /* what the sums leave out */
+    def.name = sums->behind_name;
+    TRY(virga_graphics_pipeline_create(context, &def, sums->behind_pipeline));
 error:
     return result;
 }
@@ -91,9 +96,17 @@ static virga_result create_colors(virga_water *water)
     for (uint32_t i = 0; i < water->base.max_views; i++)
         TRY(virga_offscreen_create(context, &def, &picture->colors_of_view[i]));
     picture->colors = picture->colors_of_view[0];
-    TRY(create_pipelines(water, &(water_sums){picture->colors, VIRGA_SPIRV(water_draw_part_vert),
-                                              VIRGA_SPIRV(water_draw_part_sum_frag), "water.part_depth",
-                                              "water.part_sum", &picture->part_depth, &picture->part_sum}));
+    const water_sums parts = {.images = picture->colors,
+                              .vertex = VIRGA_SPIRV(water_draw_part_vert),
+                              .fragment = VIRGA_SPIRV(water_draw_part_sum_frag),
+                              .behind = VIRGA_SPIRV(water_draw_part_behind_frag),
+                              .depth_name = "water.part_depth",
+                              .sum_name = "water.part_sum",
+                              .behind_name = "water.part_behind",
+                              .depth_pipeline = &picture->part_depth,
+                              .sum_pipeline = &picture->part_sum,
+                              .behind_pipeline = &picture->part_behind};
+    TRY(create_pipelines(water, &parts));
 error:
     return result;
 }
@@ -133,9 +146,17 @@ virga_result water_images_create(virga_water *water)
     for (uint32_t i = 0; i < water->base.max_views; i++)
         TRY(virga_offscreen_create(context, &def, &picture->sums_of_view[i]));
     picture->sums = picture->sums_of_view[0];
-    TRY(create_pipelines(water, &(water_sums){picture->sums, VIRGA_SPIRV(water_draw_splat_vert),
-                                              VIRGA_SPIRV(water_draw_splat_sum_frag), "water.splat_depth",
-                                              "water.splat_sum", &picture->splat_depth, &picture->splat_sum}));
+    const water_sums splats = {.images = picture->sums,
+                               .vertex = VIRGA_SPIRV(water_draw_splat_vert),
+                               .fragment = VIRGA_SPIRV(water_draw_splat_sum_frag),
+                               .behind = VIRGA_SPIRV(water_draw_splat_behind_frag),
+                               .depth_name = "water.splat_depth",
+                               .sum_name = "water.splat_sum",
+                               .behind_name = "water.splat_behind",
+                               .depth_pipeline = &picture->splat_depth,
+                               .sum_pipeline = &picture->splat_sum,
+                               .behind_pipeline = &picture->splat_behind};
+    TRY(create_pipelines(water, &splats));
     if (water->def.max_parts)
         TRY(create_colors(water));
 error:
@@ -148,8 +169,10 @@ void water_images_retire(virga_water *water)
     water_picture *picture = &water->picture;
     VIRGA_RETIRE(context, picture->splat_depth);
     VIRGA_RETIRE(context, picture->splat_sum);
+    VIRGA_RETIRE(context, picture->splat_behind);
     VIRGA_RETIRE(context, picture->part_depth);
     VIRGA_RETIRE(context, picture->part_sum);
+    VIRGA_RETIRE(context, picture->part_behind);
     for (uint32_t i = 0; i < water->base.max_views; i++) {
         virga_offscreen_retire(context, &picture->sums_of_view[i]);
         virga_offscreen_retire(context, &picture->colors_of_view[i]);

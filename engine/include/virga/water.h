@@ -75,7 +75,7 @@ typedef struct virga_water_def {
      * are in use no new ones are made, and the statistics say how many are missing. 0: no foam. Default 65536. */
     uint32_t max_foam;
 
-    /* [0; 16384] size in pixels of the images that water is drawn from; 30 bytes for each pixel, and 53 bytes for each
+    /* [0; 16384] size in pixels of the images that water is drawn from; 34 bytes for each pixel, and 53 bytes for each
      * surfel. Larger views are drawn at this resolution. Default 1920 x 1080. If one is 0, the water can not be drawn,
      * and nothing is allocated for it. */
     uint32_t max_width, max_height;

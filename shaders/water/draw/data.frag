@@ -19,7 +19,7 @@ void main()
     const vec4 sums = sums_at(at);
     const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
-    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w), slope, depth) : 0.0;
+    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w, depth), slope, depth) : 0.0;
     if (view.depth_given != 0u)
         covered *= soft_edge(depth);
     if (covered < 0.5)

@@ -27,7 +27,7 @@ void main()
     const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
     const vec4 moved = motion_sums_at(at);
-    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w) + moved.z, slope, depth) : 0.0;
+    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w, depth) + moved.z, slope, depth) : 0.0;
     if (HAS_DEPTH)
         covered *= soft_edge(depth);
     const vec3 ray = pixel_ray(gl_FragCoord.xy), normal = normal_of(sums.xy / max(sums.w, 1e-12));
