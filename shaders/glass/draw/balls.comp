@@ -27,7 +27,7 @@ layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_
 #define TEAR_SPEED 0.03 // m/s at which the tear shape is half formed
 #define TEAR_LEFT 0.45  // part of it that is left, at a pinning of 1, in a drop that has stopped
 #define MIN_TEAR 2.0    // min radius of such a drop (texels)
-#define WIDER 0.45      // how much farther a ball reaches on displaced glass, at a pinning of 1
+#define WIDER 0.25      // how much farther a ball reaches on displaced glass, at a pinning of 1
 
 shared uint widest, shape_count, entry_count; // of the workgroup
 
