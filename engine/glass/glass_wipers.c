@@ -24,7 +24,7 @@ static const virga_setting_row rows[] = {
     WIPER(FLOAT, pause_s, 0, 3600, 3),
     WIPER(FLOAT, phase_s, 0, 3600, 0),
     WIPER(FLOAT, host_deg, -7200, 7200, 0),
-    WIPER(FLOAT, film_mm, 0, 0.5, 0.004),
+    WIPER(FLOAT, film_mm, 0, 0.5, 0.001),
     WIPER(FLOAT, wear, 0, 1, 0.3),
 };
 

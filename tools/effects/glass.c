@@ -39,7 +39,7 @@ static const scene_row wiper_rows[] = {
     NUMBER(scene_wiper, sweep_s, 0.1, 60, "0.6", LIVE, "from one end to the other"),
     NUMBER(scene_wiper, pause_s, 0, 3600, "3", LIVE, "rest at the low end (intermittent)"),
     NUMBER(scene_wiper, phase_s, 0, 3600, "0", LIVE, "how far into its cycle it is at time 0"),
-    NUMBER(scene_wiper, film_mm, 0, 0.5, "0.004", LIVE, "film that the blade leaves behind"),
+    NUMBER(scene_wiper, film_mm, 0, 0.5, "0.001", LIVE, "film that the blade leaves behind"),
     NUMBER(scene_wiper, wear, 0, 1, "0.3", LIVE, "0 wipes evenly; worn blades leave streaks"),
     LIST(scene_wiper, keys, key_count, &wiper_key_group, 0, 100000, "[]", "angles of the arm by time (drive: keys)",
          .used_where = "drive=keys"),

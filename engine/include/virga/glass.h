@@ -202,7 +202,8 @@ typedef struct virga_glass_wiper {
     float host_deg;
 
     /* [0; 0.5] mean thickness of the film (mm) that the blade leaves behind, of water that it has wiped up: a dry blade
-     * leaves none. After film_break_s it breaks into fine drops. Default 0.004. */
+     * leaves none. After film_break_s it breaks into fine drops. What covers the pane shows view.color alone, so a film
+     * of some micrometres hides what that picture lacks, such as rain drawn later. Default 0.001. */
     float film_mm;
 
     /* [0; 1] 0 wipes evenly; worn blades leave streaks, which are arcs on the pane. Default 0.3. */
