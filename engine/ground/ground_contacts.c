@@ -19,7 +19,7 @@ _Static_assert(VIRGA_GROUND_MAX_CONTACTS == VIRGA_GROUND_CONTACTS, "the same num
 virga_wheel virga_default_wheel(void)
 {
     return (virga_wheel){
-        .axle = {1, 0, 0}, .radius_m = 0.32f, .width_m = 0.19f, .patch_m = 0.12f, .slip = 0, .open_deg = 60};
+        .axle = {1, 0, 0}, .radius_m = 0.32f, .width_m = 0.19f, .patch_m = 0.12f, .slip = 0, .open_deg = 35};
 }
 
 virga_foot virga_default_foot(void)

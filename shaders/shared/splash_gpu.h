@@ -175,6 +175,7 @@ struct virga_sprite_gpu {
 #define VIRGA_SPRITE_DROPLET 0
 #define VIRGA_SPRITE_PILE    1
 #define VIRGA_SPRITE_PUFF    2
+#define VIRGA_SPRITE_CLOUD   3 /* mist: droplets that one stands for, too many to be seen one by one */
 
 /* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_splash_draw_gpu {

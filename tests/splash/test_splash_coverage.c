@@ -120,6 +120,32 @@ static void a_thin_moving_droplet_covers_its_disc(void **state)
     close_shot(&s);
 }
 
+/* Spray that stands for 1024 droplets is a cloud: it covers what their discs do, and those of the one beside it, which
+ * is no cloud. It does so at rest and on its way. */
+static void a_cloud_covers_the_discs_of_its_drops(void **state)
+{
+    (void)state;
+    static const double velocities[3][3] = {{0, 0, 0}, {12, 0.5, 0}, {-3, 2, 0}};
+    const double diameter = 0.5e-3, distance = 1.5;
+    shot s;
+    open_shot(&s);
+    s.shutter_s = 1.0 / 96;
+    aim_from(&s, distance);
+    for (int i = 0; i < 3; i++) {
+        virga_droplet_gpu droplet = flying(diameter, nowhere, velocities[i]);
+        droplet.kind |= VIRGA_DROPLET_SPRAY;
+        droplet.age_s = 0.15f;
+        droplet.weight_free = 0x6400; /* 1024, as a half float */
+        splash_fixture_put(&s.f, &droplet, 1);
+        splash_fixture_step(&s.f, 1);
+        const double width = diameter / pixel_m(&s, distance), alpha = drawn_alpha(&s);
+        const double discs = 2 * 1024 * M_PI / 4 * width * width;
+        printf("a cloud at %g m/s covers %.1f px, its drops %.1f\n", velocities[i][0], alpha, discs);
+        assert_near(alpha, discs, 0.03);
+    }
+    close_shot(&s);
+}
+
 /* ---- the scene's depth, and the picture's edge */
 
 static void attach_depth(shot *s)
@@ -244,6 +270,7 @@ int main(void)
         cmocka_unit_test(a_moving_droplet_spreads_its_disc_over_its_way),
         cmocka_unit_test(a_thin_droplet_covers_its_disc_at_any_resolution),
         cmocka_unit_test(a_thin_moving_droplet_covers_its_disc),
+        cmocka_unit_test(a_cloud_covers_the_discs_of_its_drops),
         cmocka_unit_test(what_is_behind_the_scene_is_hidden),
         cmocka_unit_test(crowns_are_hidden_by_the_scene_too),
         cmocka_unit_test(soft_edges_rise_over_their_width),

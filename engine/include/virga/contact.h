@@ -60,7 +60,7 @@ typedef struct virga_wheel {
     float slip;
 
     /* [0; 180] angle of the tread behind the patch at which a mudguard or the body begins (deg). What leaves the tread
-     * there drips back on the track. 180: none. Default 60. */
+     * there drips back on the track. 180: none. Default 35, the arch of a car. */
     float open_deg;
 } virga_wheel;
 

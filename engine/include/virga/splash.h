@@ -212,9 +212,10 @@ VIRGA_API void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rul
  * before the first step. */
 VIRGA_API void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buffer *returned_droplets);
 
-/* Reads where droplets are taken over from simulated water, for virga_water_step_info.handed or a host's own spray: a
- * virga_handed_droplets_gpu, then def.max_handed x virga_handed_droplet_gpu. Splash takes and empties the list in each
- * step, also in one without ticks. `buffer` is VK_NULL_HANDLE without def.max_handed. Costs nothing. */
+/* Reads where droplets are taken over from simulated water (virga_water_step_info.handed), from wheels and feet
+ * (virga_ground_step_info.handed), or from a host's own spray: a virga_handed_droplets_gpu, then def.max_handed x
+ * virga_handed_droplet_gpu. Splash takes and empties the list in each step, also in one without ticks. `buffer` is
+ * VK_NULL_HANDLE without def.max_handed. Costs nothing. */
 VIRGA_API void virga_splash_handed(const virga_splash *splash, virga_splash_buffer *handed);
 
 /* The ground that spray falls on: what virga_ground_cells_get and virga_ground_maps_get say, after the ground's step.

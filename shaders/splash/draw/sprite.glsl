@@ -61,6 +61,26 @@ Sprite empty_sprite()
 
 #define CLEAR_S 0.15 // age of spray from which on it is as visible as other droplets
 
+// Spray that stands for many droplets is a cloud of them, which widens as they part. Of several that are thrown at the
+// same place one in CLOUDS is drawn so, for all of them, as clouds cover many pixels; the others show single drops.
+//
+// A cloud's coverage falls from its middle as (1 - r^2 / R^2)^2, whose integral is pi R^2 / 3. That is the area of its
+// drops, pi / 4 d^2 each.
+#define CLOUDS      2
+#define CLOUD_DROPS 8.0  // fewer are no cloud
+#define CLOUD_M     0.05 // radius when they leave a cell
+#define CLOUD_M_S   0.45 // by which it widens
+#define MAX_CLOUD_M 0.5
+
+void make_cloud(virga_droplet_gpu droplet, float age_s, inout Sprite sprite)
+{
+    const float radius = min(CLOUD_M + CLOUD_M_S * age_s, MAX_CLOUD_M), d = droplet.diameter_m;
+    sprite.kind = VIRGA_SPRITE_CLOUD;
+    sprite.widths = vec2(2.0 * radius);
+    sprite.body = 2.0 * radius;
+    sprite.gain = 0.75 * float(CLOUDS) * d * d / (radius * radius);
+}
+
 // All of these `ago_s` before the time that is drawn, 0 for now.
 Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
 {
@@ -76,6 +96,9 @@ Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
     // not change at once when water hands it over.
     if ((droplet.kind & VIRGA_DROPLET_SPRAY) != 0u)
         sprite.gain = clamp((droplet.age_s + view.time_close_s - ago_s) / CLEAR_S, 0.1, 1.0);
+    if ((droplet.kind & VIRGA_DROPLET_SPRAY) != 0u && sprite.weight > CLOUD_DROPS && is_film() &&
+        VIRGA_DROPLET_INDEX(droplet.kind) % uint(CLOUDS) == 0u)
+        make_cloud(droplet, max(droplet.age_s + view.time_close_s - ago_s, 0.0), sprite);
     sprite.id = droplet.id;
     return sprite;
 }
@@ -258,7 +281,7 @@ Projected project_sprite(Sprite sprite)
         shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
     else if (sprite.kind == VIRGA_SPRITE_PILE)
         shown = one *= min(max(p.way_px, 0.05), 1.0);
-    else {
+    else if (sprite.kind == VIRGA_SPRITE_PUFF) {
         // A blob is drawn one pixel higher and half a pixel wider than it is, see puff_cover.
         const float wide_px = max(p.width_px, drawn);
         shown = one *= high_px / (high_px + 1.0) * wide_px / (wide_px + 0.5);

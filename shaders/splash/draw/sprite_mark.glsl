@@ -12,7 +12,8 @@ layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 uint kind_of(Sprite sprite, Projected p)
 {
     const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
-    const bool second = is_film() ? p.width_px >= WIDE_PX && sprite.kind != VIRGA_SPRITE_PUFF : pile;
+    const bool clear = sprite.kind == VIRGA_SPRITE_DROPLET || pile;
+    const bool second = is_film() ? p.width_px >= WIDE_PX && clear : pile;
     return p.coverage <= 0.0 ? NOT_SELECTED : second ? SECOND_KIND : FIRST_KIND;
 }
 

@@ -33,6 +33,16 @@ float droplet_cover()
     return min(passed, 1.0);
 }
 
+// A cloud that moves covers the area of one at rest: pi / 3 R^2 and, of its path, 16 / 15 R.
+float cloud_cover()
+{
+    const float r = max(shape.x, 0.5), path = max(shape.z, 0.0);
+    const float beyond = max(max(-sprite_position.y, sprite_position.y - path), 0.0);
+    const vec2 at = vec2(sprite_position.x, beyond) / r;
+    const float inside = max(1.0 - dot(at, at), 0.0);
+    return inside * inside * 1.0471976 * r / (1.0471976 * r + 1.0666667 * path);
+}
+
 // A pile narrows from its foot like a flame, a cone on a wide foot like a hyperbola: it rises from the water level.
 bool is_cone()
 {
@@ -135,7 +145,8 @@ float puff_cover()
 
 float sprite_cover()
 {
-    const float cover = PUFFS ? puff_cover() : LINES || rim_kind.w < 0.5 ? droplet_cover() : pile_cover();
+    const bool cloud = !LINES && rim_kind.w > 2.5, droplet = LINES || rim_kind.w < 0.5;
+    const float cover = PUFFS ? puff_cover() : droplet ? droplet_cover() : cloud ? cloud_cover() : pile_cover();
     const float soft = HAS_DEPTH ? soft_edge(1.0 / sprite_position.z) : 1.0;
     return min(center_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * soft;
 }

@@ -29,6 +29,14 @@ uvec3 light_of(vec3 middle, float torn)
     return uvec3(halves(center.r, center.g), halves(center.b, rim.r), halves(rim.g, rim.b));
 }
 
+// Light has met many droplets before it leaves a cloud, and comes from nearly everywhere.
+uvec3 light_of_cloud(vec3 middle)
+{
+    const vec3 d = normalize(middle);
+    const vec3 light = environment(d, vec2(0.5, 0.2)) + (FULL ? lamps(middle, d) : vec3(0.0));
+    return uvec3(halves(light.r, light.g), halves(light.b, light.r), halves(light.g, light.b));
+}
+
 // Motion of both ends since the previous frame. Something that did not exist then comes from where it began.
 void write_motion(uint index, Slot slot, Sprite sprite)
 {
@@ -54,7 +62,8 @@ void main()
     const uint widths = halves(head_px + p.spread_px, puff ? p.sine : tail_px);
     const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
     const float torn = puff ? TORN_PUFF : sprite.kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
-    const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
+    const vec3 middle = 0.5 * (sprite.head + sprite.tail);
+    const uvec3 light = sprite.kind == VIRGA_SPRITE_CLOUD ? light_of_cloud(middle) : light_of(middle, torn);
     sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
     sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
     sprites[4u * index + 2u] = uvec4(widths, halves(p.coverage, p.body_px), light.xy);
