@@ -14,6 +14,7 @@
 #include "ground.h"
 #include "scene_file.h"
 #include "splash.h"
+#include "vehicles.h"
 #include "water.h"
 
 #include <virga/virga.h>
@@ -168,6 +169,22 @@ static void ground(void **state)
     SAME(evaporation_mm_h);
     SAME(start_wetness);
     SAME(start_water_mm);
+    SAME(contact_droplets);
+    scene_file_free(scene);
+}
+
+static void wheels(void **state)
+{
+    (void)state;
+    const char *overrides[] = {
+        "vehicles=[{keys: [{time_s: 0, position_m: [0, 0, 0]}], wheels: [{contact_m: [0, 0, 0]}]}]"};
+    scene_file *scene = load_with(overrides, 1);
+    const scene_wheel *from = &scene_vehicles_of(scene)->vehicles[0].wheels[0];
+    const virga_wheel def = virga_default_wheel();
+    SAME(radius_m);
+    SAME(width_m);
+    SAME(patch_m);
+    SAME(open_deg);
     scene_file_free(scene);
 }
 
@@ -307,10 +324,10 @@ static void enumerations_of_panes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(splashes), cmocka_unit_test(enumerations),          cmocka_unit_test(ground),
-        cmocka_unit_test(panes),    cmocka_unit_test(water_of_panes),        cmocka_unit_test(looks_of_panes),
-        cmocka_unit_test(wipers),   cmocka_unit_test(enumerations_of_panes), cmocka_unit_test(water),
-        cmocka_unit_test(solver),
+        cmocka_unit_test(splashes),       cmocka_unit_test(enumerations), cmocka_unit_test(ground),
+        cmocka_unit_test(wheels),         cmocka_unit_test(panes),        cmocka_unit_test(water_of_panes),
+        cmocka_unit_test(looks_of_panes), cmocka_unit_test(wipers),       cmocka_unit_test(enumerations_of_panes),
+        cmocka_unit_test(water),          cmocka_unit_test(solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

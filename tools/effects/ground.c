@@ -48,6 +48,8 @@ static const scene_row ground_rows[] = {
            "share of their pores that was full before the first frame"),
     NUMBER(scene_ground, start_water_mm, 0, 50, "0", RESTARTS,
            "rain of that depth has gathered in hollows before the first frame"),
+    WHOLE(scene_ground, contact_droplets, 0, 64, "12", LIVE,
+          "droplets at most that a wheel throws out of a cell in a tick; 0: none"),
     LIST(scene_ground, materials, material_count, &ground_rule_group, 0, 256, "[]",
          "rules: which names of meshes or their materials are of what"),
     OPTIONAL_GROUP(scene_ground, material_map, &material_map_group, RESTARTS,
@@ -337,6 +339,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.evaporation_mm_h = (float)from->evaporation_mm_h;
     settings.start_wetness = (float)from->start_wetness;
     settings.start_water_mm = (float)from->start_water_mm;
+    settings.contact_droplets = from->contact_droplets;
     settings.measure = s->options.stats;
     return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
 }

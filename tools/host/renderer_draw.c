@@ -162,7 +162,7 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     for (int c = 0; c < 3; c++) {
         low[c] = r->entry_count ? r->entries[0].mesh->low[c] : -1.0f;
         high[c] = r->entry_count ? r->entries[0].mesh->high[c] : 1.0f;
-        for (uint32_t i = 1; i < r->entry_count && !r->entries[i].mesh->apart; i++) {
+        for (uint32_t i = 1; i < r->entry_count && !r->entries[i].mesh->apart && !r->entries[i].mesh->moves; i++) {
             low[c] = fminf(low[c], r->entries[i].mesh->low[c]);
             high[c] = fmaxf(high[c], r->entries[i].mesh->high[c]);
         }
@@ -179,7 +179,7 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direc
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_entry *entry = &r->entries[e];
         const host_mesh *mesh = entry->mesh;
-        if (mesh->apart)
+        if (mesh->apart || mesh->moves)
             continue;
         vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
         vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);

@@ -80,6 +80,18 @@ void body_copy_place(const body_place *place, float position_m[3], float rotatio
         rotation[i] = (float)place->rotation[i];
 }
 
+void body_transform(const body_place *place, const double origin_m[3], float out[12])
+{
+    const double *q = place->rotation;
+    for (int row = 0; row < 3; row++) {
+        const int u = (row + 1) % 3, v = (row + 2) % 3;
+        out[row * 4 + row] = (float)(1 - 2 * (q[u] * q[u] + q[v] * q[v]));
+        out[row * 4 + u] = (float)(2 * (q[row] * q[u] - q[3] * q[v]));
+        out[row * 4 + v] = (float)(2 * (q[row] * q[v] + q[3] * q[u]));
+        out[row * 4 + 3] = (float)(origin_m[row] + place->position_m[row]);
+    }
+}
+
 bool water_drive_bodies(shot *s, water_state *state, double time_s, char *error, size_t error_size)
 {
     for (uint32_t i = 0; i < state->solver.body_count; i++) {

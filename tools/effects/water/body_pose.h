@@ -1,4 +1,4 @@
-/* body_pose.h - where a body in simulated water is. Internal to bodies.c and body_pose.c. */
+/* body_pose.h - where a body in simulated water is, or a vehicle that goes by keys as well. */
 #ifndef VIRGA_EFFECTS_BODY_POSE_H
 #define VIRGA_EFFECTS_BODY_POSE_H
 
@@ -21,6 +21,9 @@ bool body_known_pose(const water_solver *solver, uint32_t index, double otherwis
 
 /* That after the newest step; the solver's states are readable. */
 void body_newest_pose(const water_solver *solver, uint32_t index, virga_fluid_pose *pose);
+
+/* The same as three rows of a rotation and a place, seen from the world. */
+void body_transform(const body_place *place, const double origin_m[3], float out[12]);
 
 void body_copy_place(const body_place *place, float position_m[3], float rotation[4]);
 

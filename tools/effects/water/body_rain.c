@@ -77,19 +77,6 @@ bool water_note_bodies(shot *s, water_state *state, double frame_s, char *error,
     return true;
 }
 
-/* Rows of a rotation and a place. */
-static void fill_transform(const body_place *place, const double origin_m[3], float out[12])
-{
-    const double *q = place->rotation;
-    for (int row = 0; row < 3; row++) {
-        const int u = (row + 1) % 3, v = (row + 2) % 3;
-        out[row * 4 + row] = (float)(1 - 2 * (q[u] * q[u] + q[v] * q[v]));
-        out[row * 4 + u] = (float)(2 * (q[row] * q[u] - q[3] * q[v]));
-        out[row * 4 + v] = (float)(2 * (q[row] * q[v] + q[3] * q[u]));
-        out[row * 4 + 3] = (float)(origin_m[row] + place->position_m[row]);
-    }
-}
-
 void water_move_occluders(shot *s, const water_state *state, double time_s)
 {
     for (uint32_t i = 0; i < state->solver.body_count; i++) {
@@ -102,7 +89,7 @@ void water_move_occluders(shot *s, const water_state *state, double time_s)
         else
             body_place_of_keys(body->from, time_s, &place);
         for (uint32_t k = 0; k < body->occluder_count; k++)
-            fill_transform(&place, scene_water_of(s->scene)->position_m,
+            body_transform(&place, scene_water_of(s->scene)->position_m,
                            s->occluders[body->first_occluder + k].world_from_mesh);
     }
 }

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# What drives through a scene throws the water of the ground: all of it is counted, and what is wrong with its keys is
+# one line.
+# Usage: vehicles.sh VIRGA
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh" "$1" python3
+cat >"$work/road.obj" <<'END'
+o road
+v -3 0 -3
+v 3 0 -3
+v 3 0 3
+v -3 0 3
+f 1 4 3 2
+END
+# Its upper side is a roof of 1 m^2; the wheel is a triangle around the origin.
+cat >"$work/cart.obj" <<'END'
+o roof
+v -0.5 1 -0.5
+v 0.5 1 -0.5
+v 0.5 1 0.5
+v -0.5 1 0.5
+f 1 4 3 2
+o tire
+v 0.1 -0.3 -0.3
+v 0.1 -0.3 0.3
+v 0.1 0.3 0
+f 5 6 7
+END
+cat >"$work/drive.yaml" <<'YAML'
+virga: 1
+meshes: [{file: road.obj}]
+camera: {keys: [{position_m: [0, 1, 3], look_at_m: [0, 0, 0]}]}
+frames: {fps: 20, first: 1, last: 6, size: [48, 32], warm_start: false}
+rain: {rate_mm_h: 30, max_drops: 2048, occlusion_size: 64}
+ground: {on: true, cells: 128, far_cells: 0, start_wetness: 1, start_water_mm: 12}
+vehicles:
+  - file: cart.obj
+    wheel_part: tire
+    keys: [{time_s: 0, position_m: [0, 0, 1.5]}, {time_s: 0.25, position_m: [0, 0, -1.5]}]
+    wheels: [{contact_m: [-0.4, 0, 0], radius_m: 0.3}, {contact_m: [0.4, 0, 0], radius_m: 0.3}]
+YAML
+draw drive all --stats --frames 1-6
+python3 - "$work" <<'END' || fail "water of wheels"
+import json, sys
+for line in map(json.loads, open(f"{sys.argv[1]}/all/stats.jsonl")):
+    nl = {name: round(1000 * value) for name, value in line["water_ul"].items()}
+    came = sum(nl[name] for name in "start rained_total spray spray_off_ground touched given".split())
+    went = sum(nl[name] for name in "absorbed film puddle run_off evaporated in_air off_ground cached evicted taken "
+               "thrown".split())
+    if came != went:
+        sys.exit(f"frame {line['frame']}: {came} nl came, {went} nl are there or gone")
+if not nl["thrown"] > 100e6:
+    sys.exit(f"only {nl['thrown']} nl were thrown")
+END
+
+# refuse WHAT OPTION...: the check refuses, in one line that has WHAT.
+refuse() {
+    local what=$1 said
+    shift
+    said=$(timeout 60 "$virga" check "$work/drive.yaml" "$@" 2>&1 >"$work/out")
+    [ $? = 2 ] && [ "$(wc -l <<<"$said")" = 1 ] && grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
+}
+refuse 'vehicles.0.keys: expected rising times, got 0 after 0' --set vehicles.0.keys.1.time_s=0
+refuse 'vehicles.0.wheel_part: expected file beside it' \
+    --set 'vehicles=[{wheel_part: tire, keys: [{time_s: 0, position_m: [0, 0, 0]}]}]'
+refuse 'vehicles.0.wheels.0.radius_m: expected a number from 0.01 to 3' --set vehicles.0.wheels.0.radius_m=0
+refuse 'vehicles.0.file' --set vehicles.0.file=none.obj
+
+[ $failures = 0 ] && echo "wheels throw water"
+exit $((failures > 0))

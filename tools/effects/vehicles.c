@@ -1,0 +1,372 @@
+/* vehicles.c - the section `vehicles`: models that drive along a path. They are drawn, keep rain off, and their wheels
+ * throw the water of the ground. */
+#include "vehicles.h"
+
+#include "effect.h"
+#include "materials.h"
+#include "scene_rows.h"
+#include "water/body_pose.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- keys of scene files -------------------------------------------------------------------------------------- */
+
+static const scene_row key_rows[] = {
+    NUMBER(scene_body_key, time_s, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "when the vehicle is there"),
+    NUMBER(scene_body_key, position_m, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "of its origin then"),
+    NUMBER(scene_body_key, rotation_deg, -3600000, 3600000, "[0, 0, 0]", RESTARTS,
+           "about the X, then Y, then Z axis; at 0 it drives along -z"),
+};
+static const scene_group key_group = SCENE_GROUP(scene_body_key, key_rows);
+
+/* Ranges and defaults are the library's own: virga/contact.h. */
+static const scene_row wheel_rows[] = {
+    NUMBER(scene_wheel, contact_m, -100, 100, NULL, RESTARTS, "where it touches the ground, from the vehicle's origin"),
+    NUMBER(scene_wheel, radius_m, 0.01, 3, "0.32", RESTARTS, "of the tire"),
+    NUMBER(scene_wheel, width_m, 0.01, 2, "0.19", RESTARTS, "of the tread"),
+    NUMBER(scene_wheel, patch_m, 0.01, 2, "0.12", RESTARTS, "length of the tread that touches the ground"),
+    NUMBER(scene_wheel, open_deg, 0, 180, "35", RESTARTS, "angle behind it at which a mudguard begins; 180: none"),
+};
+static const scene_group wheel_group = SCENE_GROUP(scene_wheel, wheel_rows);
+
+static const scene_row vehicle_rows[] = {
+    TEXT(scene_vehicle, name, 40, "vehicle", RESTARTS, "of the vehicle"),
+    FILE_NAME(scene_vehicle, file, OPTIONAL, "its model, with its front at -z; else it is not seen"),
+    OPTIONAL_TEXT(scene_vehicle, wheel_part, 40, RESTARTS,
+                  "in the names of what is one wheel around the origin, its outer side at +x; drawn at each wheel"),
+    TEXT_LIST(scene_vehicle, leave_out, leave_out_count, 40, 0, 32, "[]", "in the names of what is not drawn"),
+    LIST(scene_vehicle, keys, key_count, &key_group, 1, 100000, NULL, "places by time, with lines in between"),
+    LIST(scene_vehicle, wheels, wheel_count, &wheel_group, 0, SCENE_MAX_WHEELS, "[]", "that throw water"),
+};
+static const scene_group vehicle_group = SCENE_GROUP(scene_vehicle, vehicle_rows);
+
+static const scene_row vehicles_section[] = {SECTION_LIST("vehicles", scene_vehicles, vehicles, vehicle_count,
+                                                          &vehicle_group, SCENE_MAX_VEHICLES,
+                                                          "what drives through the scene")};
+
+TOOL_SECTION_OF(vehicles)
+
+_Static_assert(SCENE_MAX_VEHICLES *SCENE_MAX_WHEELS <= VIRGA_GROUND_MAX_CONTACTS, "all wheels fit into a frame");
+
+static bool check(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_vehicles *all = scene_vehicles_of(scene);
+    char key[64];
+    for (uint32_t i = 0; i < all->vehicle_count; i++) {
+        const scene_vehicle *v = &all->vehicles[i];
+        snprintf(key, sizeof key, "vehicles.%u.keys", i);
+        for (uint32_t k = 1; k < v->key_count; k++)
+            if (v->keys[k].time_s <= v->keys[k - 1].time_s)
+                return scene_file_refuse(scene, key, error, error_size, "expected rising times, got %g after %g",
+                                         v->keys[k].time_s, v->keys[k - 1].time_s);
+        snprintf(key, sizeof key, "vehicles.%u.wheel_part", i);
+        if (v->wheel_part && !v->file)
+            return scene_file_refuse(scene, key, error, error_size, "expected file beside it");
+    }
+    return true;
+}
+
+static uint32_t count_wheels(const scene_file *scene)
+{
+    const scene_vehicles *all = scene_vehicles_of(scene);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < all->vehicle_count; i++)
+        count += all->vehicles[i].wheel_count;
+    return count;
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_vehicles *all = scene_vehicles_of(scene);
+    if (all->vehicle_count)
+        printf("  vehicles     %u with %u wheels\n", all->vehicle_count, count_wheels(scene));
+}
+
+static bool is_used(const scene_file *scene)
+{
+    return scene_vehicles_of(scene)->vehicle_count > 0;
+}
+
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+/* A model or a part of it, as it is at rest around the origin. */
+typedef struct part {
+    host_mesh mesh;
+    host_vertex *vertices;
+    uint32_t *indices;
+} part;
+
+typedef struct vehicle {
+    part body, wheels[SCENE_MAX_WHEELS];
+    host_buffer sheltering; /* vertices at rest, for rain */
+    uint32_t first_occluder, occluder_count;
+} vehicle;
+
+typedef struct vehicles_state {
+    vehicle vehicles[SCENE_MAX_VEHICLES];
+    virga_wheel wheels[SCENE_MAX_VEHICLES * SCENE_MAX_WHEELS]; /* of the frame */
+} vehicles_state;
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    (void)state, (void)error, (void)error_size;
+    def->with_contacts = def->with_splash && count_wheels(s->scene) > 0;
+    return true;
+}
+
+static bool has_name(const host_mesh *mesh, const host_primitive *primitive, const char *name)
+{
+    return host_name_contains(primitive->name, name) ||
+           host_name_contains(mesh->materials[primitive->material].name, name);
+}
+
+/* Keeps what belongs to the body, or to a wheel. */
+static void keep_part(const scene_vehicle *from, bool wheel, host_mesh *mesh)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const host_primitive *primitive = &mesh->primitives[i];
+        bool keep = (from->wheel_part && has_name(mesh, primitive, from->wheel_part)) == wheel;
+        for (uint32_t k = 0; k < from->leave_out_count; k++)
+            keep = keep && !has_name(mesh, primitive, from->leave_out[k]);
+        if (keep)
+            mesh->primitives[kept++] = *primitive;
+    }
+    mesh->primitive_count = kept;
+}
+
+static bool load_part(shot *s, const scene_vehicle *from, bool wheel, part *out, char *error, size_t error_size)
+{
+    if (!shot_blame_input(s, host_mesh_load_kept(&s->device, from->file, NULL, &out->mesh, &out->vertices,
+                                                 &out->indices, error, error_size)))
+        return false;
+    keep_part(from, wheel, &out->mesh);
+    out->mesh.moves = true;
+    for (uint32_t i = 0; i < out->mesh.primitive_count; i++)
+        out->mesh.primitives[i].ground = false;
+    return !s->renderer || host_renderer_add(s->renderer, &out->mesh, error, error_size);
+}
+
+static bool add_occluders(shot *s, vehicle *v, char *error, size_t error_size)
+{
+    const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
+    virga_occluder *first = s->occluders + s->occluder_count;
+    if (!host_buffer_create_with(&s->device, v->body.vertices, v->body.mesh.vertex_count * sizeof *v->body.vertices,
+                                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "a vehicle for rain", &v->sheltering, error,
+                                 error_size))
+        return false;
+    const uint32_t count = host_mesh_occluders(&v->body.mesh, first, room);
+    v->first_occluder = s->occluder_count;
+    v->occluder_count = count < room ? count : room;
+    for (uint32_t i = 0; i < v->occluder_count; i++) {
+        first[i].vertices = v->sheltering.buffer;
+        first[i].ground = false;
+        first[i].is_dynamic = true;
+    }
+    s->occluder_count += v->occluder_count;
+    return true;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    vehicles_state *all = state;
+    const scene_vehicles *from = scene_vehicles_of(s->scene);
+    for (uint32_t i = 0; i < from->vehicle_count; i++) {
+        const scene_vehicle *given = &from->vehicles[i];
+        vehicle *v = &all->vehicles[i];
+        if (!given->file)
+            continue;
+        if (!load_part(s, given, false, &v->body, error, error_size) || !add_occluders(s, v, error, error_size))
+            return false;
+        for (uint32_t k = 0; given->wheel_part && k < given->wheel_count; k++)
+            if (!load_part(s, given, true, &v->wheels[k], error, error_size))
+                return false;
+    }
+    return true;
+}
+
+static void close_part(shot *s, part *p)
+{
+    host_mesh_destroy(&s->device, &p->mesh);
+    free(p->vertices);
+    free(p->indices);
+}
+
+static void close_state(shot *s, void *state)
+{
+    vehicles_state *all = state;
+    for (uint32_t i = 0; i < SCENE_MAX_VEHICLES; i++) {
+        close_part(s, &all->vehicles[i].body);
+        for (uint32_t k = 0; k < SCENE_MAX_WHEELS; k++)
+            close_part(s, &all->vehicles[i].wheels[k]);
+        host_buffer_destroy(&s->device, &all->vehicles[i].sheltering);
+    }
+}
+
+/* ---- where they are ------------------------------------------------------------------------------------------- */
+
+/* Three rows of a rotation and a place. */
+static void transform_at(const scene_vehicle *from, double time_s, float out[12])
+{
+    static const double origin[3] = {0, 0, 0};
+    const scene_body body = {.keys = from->keys, .key_count = from->key_count};
+    body_place place;
+    body_place_of_keys(&body, time_s, &place);
+    body_transform(&place, origin, out);
+}
+
+static void to_world(const float transform[12], const double local[3], double world[3])
+{
+    for (int row = 0; row < 3; row++) {
+        world[row] = (double)transform[4 * row + 3];
+        for (int column = 0; column < 3; column++)
+            world[row] += (double)transform[4 * row + column] * local[column];
+    }
+}
+
+#define STEP_S (1.0 / 240) /* over which a velocity is taken */
+
+static void place_wheel(const scene_vehicle *from, uint32_t index, double time_s, virga_wheel *out)
+{
+    const scene_wheel *given = &from->wheels[index];
+    float now[12], before[12];
+    double then_m[3];
+    transform_at(from, time_s, now);
+    transform_at(from, time_s - STEP_S, before);
+    to_world(now, given->contact_m, out->contact_m);
+    to_world(before, given->contact_m, then_m);
+    out->radius_m = (float)given->radius_m;
+    out->width_m = (float)given->width_m;
+    out->patch_m = (float)given->patch_m;
+    out->open_deg = (float)given->open_deg;
+    for (int axis = 0; axis < 3; axis++) {
+        out->velocity_m_s[axis] = (float)fmin(fmax((out->contact_m[axis] - then_m[axis]) / STEP_S, -1000), 1000);
+        out->axle[axis] = now[4 * axis];
+    }
+}
+
+/* Those that stand on their side have no axle to roll about. */
+static bool stands(const virga_wheel *wheel)
+{
+    return hypot((double)wheel->axle[0], (double)wheel->axle[2]) > 0.1;
+}
+
+static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
+                       char *error, size_t error_size)
+{
+    vehicles_state *all = state;
+    const scene_vehicles *from = scene_vehicles_of(s->scene);
+    uint32_t count = 0, id = 0;
+    (void)camera, (void)error, (void)error_size;
+    for (uint32_t i = 0; i < from->vehicle_count; i++) {
+        const vehicle *v = &all->vehicles[i];
+        for (uint32_t k = 0; k < v->occluder_count; k++)
+            transform_at(&from->vehicles[i], time_s, s->occluders[v->first_occluder + k].world_from_mesh);
+        for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
+            virga_wheel *wheel = &all->wheels[count];
+            *wheel = virga_default_wheel();
+            wheel->id = id++;
+            place_wheel(&from->vehicles[i], k, time_s, wheel);
+            count += stands(wheel);
+        }
+    }
+    frame->wheels = all->wheels;
+    frame->wheel_count = count;
+    return true;
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+/* Length of its path up to a time. */
+static double way_m(const scene_vehicle *from, double time_s)
+{
+    double way = 0;
+    for (uint32_t i = 1; i < from->key_count && from->keys[i - 1].time_s < time_s; i++) {
+        const scene_body_key *a = &from->keys[i - 1], *b = &from->keys[i];
+        const double *p = a->position_m, *q = b->position_m;
+        const double part = fmin((time_s - a->time_s) / (b->time_s - a->time_s), 1);
+        way += part * hypot(hypot(q[0] - p[0], q[1] - p[1]), q[2] - p[2]);
+    }
+    return way;
+}
+
+/* It turns about its axle, x; on the left it is turned around, so that its outer side is outside. */
+static void wheel_transform(const scene_vehicle *from, uint32_t index, double time_s, const float vehicle_at[12],
+                            float out[12])
+{
+    const scene_wheel *wheel = &from->wheels[index];
+    const double side = wheel->contact_m[0] < 0 ? -1 : 1;
+    const double roll = -side * way_m(from, time_s) / wheel->radius_m, c = cos(roll), sn = sin(roll);
+    const double local[9] = {side, 0, 0, 0, c, -sn, 0, side * sn, side * c}; /* rows */
+    const double axle_m[3] = {wheel->contact_m[0], wheel->contact_m[1] + wheel->radius_m, wheel->contact_m[2]};
+    double at_m[3];
+    to_world(vehicle_at, axle_m, at_m);
+    for (int row = 0; row < 3; row++) {
+        out[4 * row + 3] = (float)at_m[row];
+        for (int column = 0; column < 3; column++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += (double)vehicle_at[4 * row + k] * local[3 * k + column];
+            out[4 * row + column] = (float)sum;
+        }
+    }
+}
+
+static bool move_part(const part *p, const float transform[12], VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    if (!p->mesh.vertex_count)
+        return true;
+    host_vertex *vertices = malloc(p->mesh.vertex_count * sizeof *vertices);
+    if (!vertices)
+        return host_fail(error, error_size, "no memory for a vehicle");
+    for (uint32_t i = 0; i < p->mesh.vertex_count; i++) {
+        const host_vertex *from = &p->vertices[i];
+        vertices[i] = *from;
+        for (int row = 0; row < 3; row++) {
+            const float *m = &transform[4 * row];
+            vertices[i].position[row] =
+                m[0] * from->position[0] + m[1] * from->position[1] + m[2] * from->position[2] + m[3];
+            vertices[i].normal[row] = m[0] * from->normal[0] + m[1] * from->normal[1] + m[2] * from->normal[2];
+        }
+    }
+    host_mesh_move(cmd, &p->mesh, vertices);
+    free(vertices);
+    return true;
+}
+
+static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size)
+{
+    vehicles_state *all = state;
+    const scene_vehicles *from = scene_vehicles_of(s->scene);
+    for (uint32_t i = 0; i < from->vehicle_count; i++) {
+        float body[12], wheel[12];
+        transform_at(&from->vehicles[i], camera_s, body);
+        if (!move_part(&all->vehicles[i].body, body, cmd, error, error_size))
+            return false;
+        for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
+            wheel_transform(&from->vehicles[i], k, camera_s, body, wheel);
+            if (!move_part(&all->vehicles[i].wheels[k], wheel, cmd, error, error_size))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* ---- the effect ----------------------------------------------------------------------------------------------- */
+
+const tool_effect vehicles_effect = {
+    .name = "vehicles",
+    .title = "Vehicles",
+    .scene = {.group = SCENE_GROUP(scene_vehicles, vehicles_section), .check = check},
+    TOOL_USED_IF(is_used, "vehicles; expected a list of them, vehicles"),
+    .print = print,
+    .state_size = sizeof(vehicles_state),
+    .define = define,
+    .open = open_state,
+    .close = close_state,
+    .fill_frame = fill_frame,
+    .before_plate = before_plate,
+};
