@@ -363,6 +363,20 @@ static virga_view look(const drive *d, double dt_s)
     return view;
 }
 
+/* Drops show what is behind them with its haze and its rain, so it is copied once more. Else they would be dark spots
+ * before a street that the haze has made bright. */
+static bool draw_windshield(drive *d, VkCommandBuffer cmd, virga_view view, const virga_scene_pane *pane)
+{
+    stage_through(&d->stage, cmd);
+    view.color = seen(&d->stage.through, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (!fine(d, virga_scene_prepare_panes(d->rain, cmd, &view, pane), "windshield"))
+        return false;
+    stage_over_begin(&d->stage, cmd);
+    const virga_result drawn = virga_glass_draw(virga_scene_glass(d->rain, 0), cmd, d->target);
+    stage_over_end(&d->stage, cmd);
+    return fine(d, drawn, "draw");
+}
+
 /* Records a whole frame. */
 static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 {
@@ -389,12 +403,11 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     virga_ground_maps_get(virga_scene_ground(d->rain), &maps);
     draw_world(d, cmd, &maps); /* color, depth; `behind` is a copy of color now */
 
-    if (!fine(d, virga_scene_prepare_panes(d->rain, cmd, &view, &pane), "windshield"))
-        return false;
     stage_over_begin(&d->stage, cmd);
-    const virga_result drawn = virga_scene_draw(d->rain, cmd, d->target);
+    const bool splashes = fine(d, virga_splash_draw(virga_scene_splash(d->rain), cmd, d->target), "splashes");
+    const bool rain = fine(d, virga_rain_draw(virga_scene_rain(d->rain), cmd, d->target), "rain");
     stage_over_end(&d->stage, cmd);
-    return fine(d, drawn, "draw");
+    return splashes && rain && draw_windshield(d, cmd, view, &pane);
 }
 
 /* Binds the images that the street's material samples: once, and after a resize. */

@@ -244,23 +244,37 @@ void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, 
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_pipeline);
 }
 
-/* The pass leaves `color` in the layout for copies. */
-void stage_world_end(stage *s, VkCommandBuffer cmd)
+/* Copies `color`, which is in the layout for copies. */
+static void copy_color(stage *s, VkCommandBuffer cmd, const host_image *to)
 {
-    vkCmdEndRenderPass(cmd);
     const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers, 0,
+    host_image_barrier(cmd, to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers, 0,
                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     VkImageCopy whole = {
         .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
         .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
         .extent = {s->width, s->height, 1},
     };
-    vkCmdCopyImage(cmd, s->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, s->behind.image,
+    vkCmdCopyImage(cmd, s->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to->image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
-    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+    host_image_barrier(cmd, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, readers,
                        VK_ACCESS_SHADER_READ_BIT);
+}
+
+/* The pass leaves `color` in the layout for copies. */
+void stage_world_end(stage *s, VkCommandBuffer cmd)
+{
+    vkCmdEndRenderPass(cmd);
+    copy_color(s, cmd, &s->behind);
+}
+
+void stage_through(stage *s, VkCommandBuffer cmd)
+{
+    host_image_barrier(cmd, &s->color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    copy_color(s, cmd, &s->through);
 }
 
 void stage_over_begin(stage *s, VkCommandBuffer cmd)

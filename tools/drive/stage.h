@@ -4,6 +4,8 @@
  *     stage_begin            a command buffer, and an image to show
  *     stage_world_begin/end  sky and meshes into `color` and `depth`; then `behind` is a copy of `color`
  *     stage_over_begin/end   what is blended over `color`, while `depth` and `behind` may be sampled
+ *     stage_through          `through` is a copy of `color` now
+ *     stage_over_begin/end   what shows `through`
  *     stage_end              `color` to the window or to the picture; submitted
  */
 #ifndef DRIVE_STAGE_H
@@ -62,6 +64,7 @@ typedef struct stage {
     host_buffer copy;   /* its bytes, after the last frame */
 
     host_image color, depth, behind; /* RGBA16F with 1 / distance in alpha of `behind`; D32 */
+    host_image through;              /* what is behind the windshield: `color` with rain and splashes */
     VkRenderPass world_pass, over_pass, show_pass;
     VkFramebuffer world_framebuffer, over_framebuffer;
 
@@ -104,6 +107,7 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
                        const virga_lighting *lighting);
 void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw);
 void stage_world_end(stage *s, VkCommandBuffer cmd);
+void stage_through(stage *s, VkCommandBuffer cmd);
 void stage_over_begin(stage *s, VkCommandBuffer cmd);
 void stage_over_end(stage *s, VkCommandBuffer cmd);
 bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size);

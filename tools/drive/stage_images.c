@@ -85,7 +85,9 @@ static bool create_images(stage *s, char *error, size_t error_size)
         !create_image(s, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | sampled, "drive depth",
                       &s->depth, error, error_size) ||
         !create_image(s, VK_FORMAT_R16G16B16A16_SFLOAT, sampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT, "drive behind",
-                      &s->behind, error, error_size))
+                      &s->behind, error, error_size) ||
+        !create_image(s, VK_FORMAT_R16G16B16A16_SFLOAT, sampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT, "drive through",
+                      &s->through, error, error_size))
         return false;
     const VkImageView views[2] = {s->color.view, s->depth.view};
     if (!create_framebuffer(s, s->world_pass, views, 2, &s->world_framebuffer, error, error_size) ||
@@ -121,6 +123,7 @@ void stage_images_destroy(stage *s)
     host_image_destroy(s->device, &s->color);
     host_image_destroy(s->device, &s->depth);
     host_image_destroy(s->device, &s->behind);
+    host_image_destroy(s->device, &s->through);
     host_image_destroy(s->device, &s->picture);
     host_buffer_destroy(s->device, &s->copy);
 }

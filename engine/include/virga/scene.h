@@ -214,7 +214,11 @@ VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cm
  * picture behind them, after virga_scene_record and before virga_scene_draw. `panes`: one per pane of the scene, as in
  * the frame. Costs as virga_glass_prepare_panes, whose rule for draws holds here too. Returns the first error of them,
  * else the last remark; VIRGA_ERROR_INVALID for NULL; and VIRGA_OK for a scene without panes, where there is nothing to
- * do. */
+ * do.
+ *
+ * Drops show what view->color holds. Where that lacks rain and haze, they are dark spots before haze that is bright. So
+ * draw splashes and rain with their own functions, copy the picture, and prepare and draw the panes last, as the sample
+ * game does. */
 VIRGA_API virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
                                                  const virga_scene_pane *panes);
 
