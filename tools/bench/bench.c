@@ -13,9 +13,17 @@ bool bench_fail(bench *b, const char *what)
     return options_complain("bench", "%s: %s", what, b->error);
 }
 
-static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipeline_build_mode when)
+virga_context_def bench_context_def(const bench *b)
 {
     virga_context_def def = host_context_def(&b->device);
+    if (b->model)
+        def.get_instance_proc_addr = counting_get;
+    return def;
+}
+
+static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipeline_build_mode when)
+{
+    virga_context_def def = bench_context_def(b);
     def.pipeline_cache = blob;
     def.pipeline_cache_size = blob_size;
     def.pipeline_build_mode = when;
@@ -28,6 +36,8 @@ bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size
     uint32_t index;
     char *error = b->error;
     const size_t size = sizeof b->error;
+    if (b->model)
+        counting_prepare();
     if (!host_instance_create(&b->instance, false, error, size))
         return bench_fail(b, "Vulkan");
     const uint32_t count = host_devices_list(&b->instance, infos, HOST_MAX_DEVICES);
@@ -51,14 +61,19 @@ bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size
     for (int i = 0; i < 3; i++)
         if (!host_target_create(&b->device, bench_sizes[i][0], bench_sizes[i][1], &b->targets[i], error, size))
             return bench_fail(b, "picture");
+    if (b->model && !counting_open(&b->device, error, size))
+        return bench_fail(b, "counting");
     return open_context(b, blob, blob_size, when);
 }
 
 void bench_close(bench *b)
 {
+    const model_card *model = b->model;
     virga_target_destroy(&b->layer);
     virga_context_destroy(&b->context);
     if (b->device.device) {
+        if (model)
+            counting_close(&b->device);
         for (int i = 0; i < 3; i++)
             if (b->targets[i].width)
                 host_target_destroy(&b->device, &b->targets[i]);
@@ -69,6 +84,7 @@ void bench_close(bench *b)
     if (b->instance.instance)
         host_instance_destroy(&b->instance);
     memset(b, 0, sizeof *b);
+    b->model = model;
 }
 
 void bench_view(virga_view *view, uint32_t size)
@@ -130,6 +146,19 @@ bool bench_submit(bench *b, double *milliseconds)
 
 bool bench_begin(bench *b, VkCommandBuffer *cmd)
 {
-    return (host_begin_frame(&b->device, cmd, b->error, sizeof b->error) || bench_fail(b, "frame")) &&
-           virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
+    if (!host_begin_frame(&b->device, cmd, b->error, sizeof b->error))
+        return bench_fail(b, "frame");
+    if (b->model)
+        counting_end_frame();
+    return virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
+}
+
+double bench_print_model(const bench *b)
+{
+    if (!b->model)
+        return 0;
+    counting_end_frame();
+    const double total_ms = model_print(b->model);
+    counting_forget();
+    return total_ms;
 }

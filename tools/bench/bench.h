@@ -3,6 +3,7 @@
 #define VIRGA_BENCH_BENCH_H
 
 #include "bench/machine_limits.h"
+#include "bench/model/model.h"
 #include "host.h"
 
 #include <virga/virga.h>
@@ -20,14 +21,19 @@ typedef struct bench {
     virga_occluder floor;
     virga_context *context;
     virga_target *layer;
+    const model_card *model; /* set before bench_open: passes are counted, and bench_print_model prints their times */
     char error[512];
 } bench;
 
-/* Opens a device, and creates a floor, targets, and a context with this pipeline cache. *b must be all zero. */
+/* Opens a device, and creates a floor, targets, and a context with this pipeline cache. *b must be all zero but for its
+ * model. */
 bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipeline_build_mode when);
 
-/* Destroys all of it; *b is all zero afterwards. */
+/* Destroys all of it; *b is all zero afterwards but for its model. */
 void bench_close(bench *b);
+
+/* For a further context on the device: with the counting, if there is a model. */
+virga_context_def bench_context_def(const bench *b);
 
 bool bench_fail(bench *b, const char *what);
 
@@ -43,6 +49,10 @@ double bench_pass_ms(const bench *b, const char *name);
 /* Time of a draw in the newest frame, which took `frame_ms` with all that was recorded. A software device does not time
  * draws: there it is what the frame's timed passes leave. */
 double bench_draw_ms(const bench *b, const char *name, double frame_ms);
+
+/* With a model: the modelled times of the passes since the last call, each in its newest frame. Returns
+ * their sum in milliseconds. Else nothing, and 0. */
+double bench_print_model(const bench *b);
 
 /* A camera at eye level, with one of bench_sizes. */
 void bench_view(virga_view *view, uint32_t size);

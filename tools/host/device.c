@@ -20,6 +20,9 @@ static void enable_optional(host_device *device, VkPhysicalDeviceFeatures *enabl
     enabled->independentBlend = available.independentBlend;
     device->clip_distance = available.shaderClipDistance;
     enabled->shaderClipDistance = available.shaderClipDistance;
+    /* For the benches, which count what shaders do. */
+    enabled->fragmentStoresAndAtomics = available.fragmentStoresAndAtomics;
+    enabled->vertexPipelineStoresAndAtomics = available.vertexPipelineStoresAndAtomics;
     device->wide_lines = available.wideLines;
     enabled->wideLines = available.wideLines;
     if (available.samplerAnisotropy) {
