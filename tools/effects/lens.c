@@ -342,6 +342,10 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
         print_costs(row, p, worked, copy);
     print_passes(passes, runs);
     fflush(stdout);
+    const double modelled_ms = bench_print_model(b);
+    if (modelled_ms > 0)
+        printf("    %.1f x a fill of all pixels, modelled\n",
+               modelled_ms / model_fill_ms(b->model, (double)p->width * p->height));
     return true;
 }
 

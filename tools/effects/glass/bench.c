@@ -219,6 +219,8 @@ static bool measure(bench *b, const struct row *row)
                p.tick - 1, (double)p.rate_mm_h, row->side, row->side, (double)row->width_m, (double)p.bytes / 1048576);
     good = good && measure_limits(b, row, &p, &fill) && measure_style(b, row, &p, VIRGA_GLASS_STYLE_PAPER, fill) &&
            (row->bare || measure_style(b, row, &p, VIRGA_GLASS_STYLE_PHYSICAL, fill));
+    if (good)
+        bench_print_model(b);
     virga_target_destroy(&p.layer);
     virga_glass_destroy(&p.glass);
     if (p.picture.width)

@@ -101,6 +101,7 @@ static bool measure(bench *b, uint32_t cells)
     printf("  machine          copy of 16 bytes a cell %.3f ms, bare kernel over them %.3f ms\n", copy, bare);
     print_passes(cells, times, bare);
     fflush(stdout);
+    bench_print_model(b);
     return true;
 }
 

@@ -209,8 +209,10 @@ static bool run(bench *b, const options *parsed)
         bench_result result;
         memset(&result, 0, sizeof result);
         good = measure(&r, only ? only : usual[i], &result);
-        if (good)
+        if (good) {
             print_result(&result);
+            bench_print_model(b);
+        }
     }
     return good;
 }

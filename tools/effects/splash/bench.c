@@ -142,6 +142,7 @@ static bool measure_table(run *r, const uint32_t *counts, uint32_t count)
             if (interrupt_requested())
                 return true;
             splash_bench_print_cell(r->choice, c);
+            bench_print_model(r->b);
             if (i + 1 == count && !splash_bench_measure_limits(r, c, &limits[r->row]))
                 return false;
         }
@@ -171,7 +172,7 @@ static bool measure_tables(bench *b, const bench_splash_choice *choice)
  * a hundred splashes. */
 static bool open_untimed(bench *b, virga_context **context)
 {
-    virga_context_def def = host_context_def(&b->device);
+    virga_context_def def = bench_context_def(b);
     def.timings = false;
     return virga_context_create(&def, context) == VIRGA_OK || splash_bench_fail(b, "the device was refused");
 }

@@ -262,6 +262,7 @@ static bool measure(bench *b, const struct row *row)
     if (!good || !bench_water_measure_limits(b, p.count, PICTURE, &machine))
         return interrupt_requested();
     print_times(&p, times, &machine);
+    bench_print_model(b);
     fflush(stdout);
     return true;
 }

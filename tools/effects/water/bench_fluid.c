@@ -94,6 +94,7 @@ static bool measure(bench *b, const uint32_t counts[3])
                                result.stats.particles);
     printf("  %-26s %9.3f ms, by its fence; %.3f ms a substep\n", "a whole step", whole, whole / fmax(substeps, 1));
     fflush(stdout);
+    bench_print_model(b);
     return true;
 }
 

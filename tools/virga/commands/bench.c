@@ -2,6 +2,7 @@
  * run. */
 #include "bench/bench.h"
 #include "bench/frames.h"
+#include "bench/model_frame.h"
 #include "commands/commands.h"
 #include "effect.h"
 #include "options.h"
@@ -13,6 +14,10 @@
 
 static const option_row own_rows[] = {
     {"--passes", 0, "N", "frames: runs of all frames; the minimum of each frame is shown. Default: 3", false},
+    {"--model", 0, "desktop|handheld",
+     "after each measurement, the time that each pass would take on such a card, modelled from "
+     "what it was counted to do; times that are measured beside it are of no use. Without a name: frames",
+     false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
 };
 
@@ -91,8 +96,19 @@ static const tool_bench *find_bench(const char *wanted)
     return NULL;
 }
 
+/* NULL where the option was not given. False, with the reason, for a card that is not known. */
+static bool find_model(const options *parsed, const model_card **card)
+{
+    const char *name = options_value(parsed, "--model");
+    *card = name ? model_card_find(name) : NULL;
+    return !name || *card || options_complain("bench", "--model: expected desktop or handheld, got '%s'", name);
+}
+
 static bool check_options(const options *parsed, uint32_t *passes)
 {
+    const model_card *card;
+    if (!find_model(parsed, &card))
+        return false;
     if (!options_uint(parsed, "--passes", 1, BENCH_MAX_PASSES, passes))
         return false;
     const tool_bench *bench;
@@ -109,7 +125,9 @@ static bool run_bench(bench *b, const tool_bench *found, const options *parsed, 
     if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_IMMEDIATE))
         return false;
     printf("virga %s on %s (%s), medians of %d\n", virga_version(), b->info.name, b->info.driver, BENCH_RUNS);
-    return found ? found->run(b, parsed) : bench_frames(b, device, passes);
+    if (found)
+        return found->run(b, parsed);
+    return b->model ? bench_model_frames(b, device) : bench_frames(b, device, passes);
 }
 
 int bench_run(int argc, char **argv)
@@ -119,7 +137,9 @@ int bench_run(int argc, char **argv)
     char names[256];
     if (!options_parse(&parsed, "bench", rows, list_rows(), argc, argv) || !check_options(&parsed, &passes))
         return EXIT_USAGE;
-    const char *what = parsed.argument_count == 1 ? parsed.arguments[0] : "";
+    const char *what = parsed.argument_count == 1          ? parsed.arguments[0]
+                       : options_value(&parsed, "--model") ? "frames"
+                                                           : "";
     const tool_bench *found = find_bench(what);
     if (!found && strcmp(what, "frames")) {
         print_names(names, sizeof names, ", ", " or ");
@@ -129,7 +149,7 @@ int bench_run(int argc, char **argv)
     bench *b = calloc(1, sizeof *b);
     if (!b)
         return EXIT_FAILED;
-    bool good = run_bench(b, found, &parsed, passes);
+    bool good = find_model(&parsed, &b->model) && run_bench(b, found, &parsed, passes);
     if (b->instance.messages)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
     bench_close(b);
