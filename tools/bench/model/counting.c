@@ -191,13 +191,16 @@ static VkShaderModule counting_module(VkDevice device, VkShaderModule module, Vk
     if (!code || !set || !block_costs_read(code->words, code->word_count, &stage->costs))
         return VK_NULL_HANDLE;
     const uint32_t needed = 2 * stage->costs.block_count;
-    const spirv_count_def def = {code->words, code->word_count, &stage->costs, *set, counting.number_count};
+    if (needed > stage->room) {
+        stage->first = counting.number_count;
+        stage->room = needed;
+        counting.number_count += needed;
+    }
+    const spirv_count_def def = {code->words, code->word_count, &stage->costs, *set, stage->first};
     size_t word_count;
-    uint32_t *words = counting.number_count + needed <= MAX_NUMBERS ? spirv_count_blocks(&def, &word_count) : NULL;
+    uint32_t *words = counting.number_count <= MAX_NUMBERS ? spirv_count_blocks(&def, &word_count) : NULL;
     if (!words)
         return VK_NULL_HANDLE;
-    stage->first = counting.number_count;
-    counting.number_count += needed;
     const VkShaderModuleCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = word_count * 4, .pCode = words};
     DRIVER(CreateShaderModule)(device, &info, NULL, &made);
@@ -205,17 +208,32 @@ static VkShaderModule counting_module(VkDevice device, VkShaderModule module, Vk
     return made;
 }
 
+static void free_costs(counted_pass *pass)
+{
+    for (uint32_t i = 0; i < pass->stage_count; i++)
+        block_costs_free(&pass->stages[i].costs);
+}
+
+/* The place of a pass that has ended and was forgotten, or a new one. */
 static counted_pass *new_pass(void)
 {
-    counted_pass *pass = counting.pass_count < MAX_PASSES ? &counting.passes[counting.pass_count] : NULL;
-    if (pass)
-        memset(pass, 0, sizeof *pass);
+    counted_pass *pass = counting.passes, *end = pass + counting.pass_count;
+    while (pass < end && !(pass->ended && !pass->calls && !pass->calls_so_far))
+        pass++;
+    if (pass == counting.passes + MAX_PASSES)
+        return NULL;
+    counting.pass_count += pass == end;
+    free_costs(pass);
+    /* Its numbers may be used again. */
+    counted_pass fresh = {.stages = {{.first = pass->stages[0].first, .room = pass->stages[0].room},
+                                     {.first = pass->stages[1].first, .room = pass->stages[1].room}}};
+    *pass = fresh;
     return pass;
 }
 
-static void keep_pass(VkPipeline pipeline, VkPipelineLayout layout, VkPipeline counts)
+static void keep_pass(const counted_pass *pass, VkPipeline pipeline, VkPipelineLayout layout, VkPipeline counts)
 {
-    const bound_pass bound = {counting.pass_count++, layout, counts};
+    const bound_pass bound = {(uint32_t)(pass - counting.passes), layout, counts};
     keep(&counting.pipelines, (uint64_t)pipeline, &bound, sizeof bound);
 }
 
@@ -239,7 +257,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
             result = DRIVER(CreateComputePipelines)(device, cache, 1, &info, with, &counts);
         DRIVER(DestroyShaderModule)(device, module, NULL);
         if (!result)
-            keep_pass(made[i], info.layout, counts);
+            keep_pass(pass, made[i], info.layout, counts);
     }
     return result;
 }
@@ -279,7 +297,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_graphics(VkDevice device, VkPipelin
         for (uint32_t k = 0; k < 2; k++)
             DRIVER(DestroyShaderModule)(device, stages[k].module, NULL);
         if (!result)
-            keep_pass(made[i], info.layout, counts);
+            keep_pass(pass, made[i], info.layout, counts);
     }
     return result;
 }
@@ -303,6 +321,7 @@ static VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice device, VkPipeline p
     if (bound) {
         DRIVER(DestroyPipeline)(device, bound->counting, with);
         bound->counting = VK_NULL_HANDLE;
+        counting.passes[bound->index].ended = true;
     }
     DRIVER(DestroyPipeline)(device, pipeline, with);
 }
@@ -490,8 +509,7 @@ bool counting_open(host_device *device, char *error, size_t error_size)
 void counting_close(host_device *device)
 {
     for (uint32_t i = 0; i < counting.pass_count; i++)
-        for (uint32_t k = 0; k < counting.passes[i].stage_count; k++)
-            block_costs_free(&counting.passes[i].stages[k].costs);
+        free_costs(&counting.passes[i]);
     handle_map *maps[] = {&counting.modules, &counting.layouts, &counting.resources, &counting.sets,
                           &counting.pipelines};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)

@@ -13,7 +13,7 @@
 
 typedef struct counted_stage {
     block_costs costs;
-    uint32_t first;                      /* of its numbers in counting_numbers() */
+    uint32_t first, room;                /* its numbers in counting_numbers() */
     double texel_share[BLOCK_RESOURCES]; /* bytes of a texel of the bound image, of those that block_cost.c takes */
     double sizes[BLOCK_RESOURCES];       /* bytes of the bound buffer or image; 0: none was bound */
 } counted_stage;
@@ -28,6 +28,7 @@ typedef struct counted_pass {
     uint32_t calls_so_far, waits_so_far; /* of a frame that has not ended */
     uint32_t frames;                     /* that used it since counting_forget */
     bool counts;                         /* in this frame */
+    bool ended;                          /* its pipeline was destroyed */
     float target_bytes;                  /* that a fragment reads and writes of its attachments */
 } counted_pass;
 

@@ -184,6 +184,7 @@ static bool run(bench *b, const options *parsed)
 }
 
 const tool_bench ground_bench = {
-    .help = "landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain; wheels at 60 km/h\n",
+    .help = "landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain;\n"
+            "wheels at 60 km/h\n",
     .run = run,
 };
