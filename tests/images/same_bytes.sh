@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The same seed gives the same files: on any number of threads, in two vector widths, and for frames rendered alone.
 # Usage: same_bytes.sh VIRGA SCENE NARROW_CACHE "SYSTEM..." [OPTION...] with a folder that is kept for the shaders of
-# the narrow width, the systems that write point caches, and further options of the program.
+# the narrow width (none: without that width), the systems that write point caches, and further options of the program.
 set -eu
 virga=$1 scene=$2 narrow_cache=$3 systems=$4
 shift 4
@@ -38,8 +38,10 @@ render once 1-2 LP_NUM_THREADS=3
 render one_thread 1-2 LP_NUM_THREADS=1
 same one_thread $frames
 # Software Vulkan's shader cache does not know the vector width, so this width has one of its own.
-render narrow 1-2 LP_NATIVE_VECTOR_WIDTH=128 MESA_SHADER_CACHE_DIR="$narrow_cache"
-same narrow $points
+if [ "$narrow_cache" != none ]; then
+    render narrow 1-2 LP_NATIVE_VECTOR_WIDTH=128 MESA_SHADER_CACHE_DIR="$narrow_cache"
+    same narrow $points
+fi
 render alone 2
 same alone $last
 echo "same bytes"
