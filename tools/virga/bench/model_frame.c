@@ -81,19 +81,16 @@ static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, bool
 
 static void print_case(virga_scene *scene, const frame_case *c)
 {
-    virga_rain_stats rain;
     virga_splash_stats splash;
-    virga_rain_stats_get(virga_scene_rain(scene), &rain);
     virga_splash_stats_get(virga_scene_splash(scene), &splash);
     printf("%s; %u x %u pixels, rain of %g mm/h: %u splashes\n", c->what, bench_sizes[1][0], bench_sizes[1][1],
            c->rate_mm_h, splash.splashes_alive);
 }
 
-static bool run_case(bench *b, const char *device, const frame_case *c)
+static bool run_case(bench *b, const frame_case *c)
 {
     virga_scene *scene = NULL;
     virga_view view;
-    (void)device;
     bench_view(&view, 1);
     bool good = make_scene(b, c, &scene) && set_rain(scene, c);
     for (int i = 0; i < WARM_UP && good && !interrupt_requested(); i++)
@@ -109,10 +106,10 @@ static bool run_case(bench *b, const char *device, const frame_case *c)
     return good;
 }
 
-bool bench_model_frames(bench *b, const char *device)
+bool bench_model_frames(bench *b)
 {
     bool good = true;
     for (size_t i = 0; i < sizeof frame_cases / sizeof frame_cases[0] && good && !interrupt_requested(); i++)
-        good = run_case(b, device, &frame_cases[i]);
+        good = run_case(b, &frame_cases[i]);
     return good;
 }

@@ -127,7 +127,7 @@ static bool run_bench(bench *b, const tool_bench *found, const options *parsed, 
     printf("virga %s on %s (%s), medians of %d\n", virga_version(), b->info.name, b->info.driver, BENCH_RUNS);
     if (found)
         return found->run(b, parsed);
-    return b->model ? bench_model_frames(b, device) : bench_frames(b, device, passes);
+    return b->model ? bench_model_frames(b) : bench_frames(b, device, passes);
 }
 
 int bench_run(int argc, char **argv)
