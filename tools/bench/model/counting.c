@@ -78,6 +78,14 @@ static double texel_bytes(VkFormat format)
     }
 }
 
+/* A view is as large as what it is a view of. */
+static void keep_size_of_view(uint64_t view, uint64_t of)
+{
+    const resource_size *size = handle_map_find(&counting.resources, of);
+    if (size)
+        keep(&counting.resources, view, size, sizeof *size);
+}
+
 static VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo *info,
                                                     const VkAllocationCallbacks *with, VkBuffer *made)
 {
@@ -92,9 +100,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_buffer_view(VkDevice device, const 
                                                          const VkAllocationCallbacks *with, VkBufferView *made)
 {
     const VkResult result = DRIVER(CreateBufferView)(device, info, with, made);
-    const resource_size *of = handle_map_find(&counting.resources, (uint64_t)info->buffer);
-    if (!result && of)
-        keep(&counting.resources, (uint64_t)*made, of, sizeof *of);
+    if (!result)
+        keep_size_of_view((uint64_t)*made, (uint64_t)info->buffer);
     return result;
 }
 
@@ -115,9 +122,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const V
                                                         const VkAllocationCallbacks *with, VkImageView *made)
 {
     const VkResult result = DRIVER(CreateImageView)(device, info, with, made);
-    const resource_size *of = handle_map_find(&counting.resources, (uint64_t)info->image);
-    if (!result && of)
-        keep(&counting.resources, (uint64_t)*made, of, sizeof *of);
+    if (!result)
+        keep_size_of_view((uint64_t)*made, (uint64_t)info->image);
     return result;
 }
 
