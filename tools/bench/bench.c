@@ -16,8 +16,10 @@ bool bench_fail(bench *b, const char *what)
 virga_context_def bench_context_def(const bench *b)
 {
     virga_context_def def = host_context_def(&b->device);
-    if (b->model)
+    if (b->model) {
         def.get_instance_proc_addr = counting_get;
+        def.timings = false; /* on software Vulkan they come with barriers of their own, which no card has */
+    }
     return def;
 }
 
@@ -151,6 +153,14 @@ bool bench_begin(bench *b, VkCommandBuffer *cmd)
     if (b->model)
         counting_end_frame();
     return virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
+}
+
+void bench_forget_model(const bench *b)
+{
+    if (!b->model)
+        return;
+    counting_end_frame();
+    counting_forget();
 }
 
 double bench_print_model(const bench *b)
