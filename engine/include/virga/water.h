@@ -274,8 +274,8 @@ typedef struct virga_water_settings {
      * as many colors. Default 3. */
     uint32_t surfel_divisions;
 
-    /* [0; 10] range of depth over which the water fades where it meets the scene (m). Needs virga_view.depth. Default
-     * 0.002. */
+    /* [0; 10] range of depth over which the water fades where it meets the scene (m). Needs virga_view.depth. At a
+     * contact line (see virga_water_draw) it is at most half a pixel. Default 0.002. */
     float soft_m;
 
     /* [0; 1] how much of what is behind it a particle of foam covers in its middle. Default 0.3. */
@@ -379,6 +379,11 @@ VIRGA_API virga_result virga_water_prepare_view(virga_water *water, VkCommandBuf
 /* Draws the water into the target, inside rendering, after the opaque scene. With virga_view.color, what is seen
  * through the water is refracted; without it, the environment is seen through the water. With virga_view.depth, the ray
  * in the water ends at the scene. The camera must be outside the water: its surface seen from below is not drawn.
+ *
+ * Contact line: particles end half a spacing before a solid. With virga_view.depth the surface goes on to the solid
+ * that the depth shows, with the meniscus of a contact angle of 20 degrees, and a thin layer ends in a wedge. Not where
+ * a spacing is smaller than two pixels, nor with VIRGA_WATER_SHADING_SURFELS. A gap behind a surface that is seen at
+ * less than 15 to 30 degrees stays: little of it is seen.
  *
  * VIRGA_NOT_READY, logged once: the target is not attached, or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target);

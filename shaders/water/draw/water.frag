@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
 #include "gpu/temporal.glsl"
 #include "surface.glsl"
 #include "light.glsl"
+#include "contact.glsl"
 #include "specks.glsl"
 #include "gpu/encode.glsl"
 
@@ -25,13 +26,18 @@ void main()
     const vec2 at = image_pixel(gl_FragCoord.xy);
     const vec4 sums = sums_at(at);
     const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
-    const float depth = sums.z / max(sums.w, 1e-12);
     const vec4 moved = motion_sums_at(at);
-    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w, depth) + moved.z, slope, depth) : 0.0;
+    const vec3 ray = pixel_ray(gl_FragCoord.xy);
+    Water water = Water(at, sums.z / max(sums.w, 1e-12), normal_of(sums.xy / max(sums.w, 1e-12)), 0.0, false);
+    const vec3 bend_x = dFdx(water.normal), bend_y = dFdy(water.normal);
+    const float weight = sums.w > 1e-4 ? closed_weight(at, sums.w, water.depth) + moved.z : 0.0;
+    water.covered = sums.w > 1e-4 ? coverage_of(weight, slope, water.depth) : 0.0;
     if (HAS_DEPTH)
-        covered *= soft_edge(depth);
-    const vec3 ray = pixel_ray(gl_FragCoord.xy), normal = normal_of(sums.xy / max(sums.w, 1e-12));
-    const vec3 bend_x = dFdx(normal), bend_y = dFdy(normal);
+        water = with_contact(water, ray);
+    const float depth = water.depth;
+    float covered = water.covered;
+    if (HAS_DEPTH)
+        covered *= water.is_new ? edge_of_contact(depth) : soft_edge(depth);
     const Specks specks = specks_of(moved, ray);
     if (covered + specks.covered <= 0.0)
         discard;
@@ -39,8 +45,8 @@ void main()
     point.depth = depth;
     point.position = ray * depth;
     point.incident = normalize(ray);
-    point.normal = seen_normal(normal, point.incident);
-    point.spread = 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
+    point.normal = seen_normal(water.normal, point.incident);
+    point.spread = water.is_new ? 0.0 : 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
     point.thickness = thickness_at(at);
     const vec4 light = specks_over(specks, covered > 0.0 ? vec4(light_of(point) * covered, covered) : vec4(0.0));
     radiance = for_target(light);
