@@ -294,6 +294,7 @@ static const virga_effect_pass passes[] = {
     STEP(active_compact),
     STEP(choose_cell),
     STEP(enter_cell),
+    STEP(move_drops),
     STEP(capture_mark),
     STEP(capture),
     STEP(wipe_film),

@@ -64,9 +64,9 @@ struct virga_glass {
     uint32_t tick_offset; /* of the newest tick */
     virga_bindings *bindings;
     virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
-        *enter_cell, *capture_mark, *capture, *wipe_film, *lay_film, *split_drops, *empty_bins, *particle_grid,
-        *push_particles, *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick, *dry_film,
-        *film_compact, *measure;
+        *enter_cell, *move_drops, *capture_mark, *capture, *wipe_film, *lay_film, *split_drops, *empty_bins,
+        *particle_grid, *push_particles, *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick,
+        *dry_film, *film_compact, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
     float farthest_m;                                        /* max distance of a node from the pane's origin */
     bool masked;                                             /* some cells may have no glass */

@@ -111,7 +111,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
  * can not require full subgroups, and a value read from an inactive lane is undefined. */
 static uint32_t shuffled_lanes(const virga_context *context)
 {
-    if (!context->software)
+    if (!context->for_software)
         return 0;
     VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,

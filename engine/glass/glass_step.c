@@ -356,6 +356,25 @@ static uint32_t groups_of(uint64_t invocations)
     return (uint32_t)((invocations + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
 }
 
+/* Up to so many slots, a GPU moves the drops in one workgroup. More take longer there than to wait between rounds. */
+#define MAX_ONE_WORKGROUP_DROPS (16 * VIRGA_GLASS_GROUP)
+
+static void record_rounds(virga_glass *glass, VkCommandBuffer cmd)
+{
+    if (!glass->base.context->for_software && glass->def.max_drops <= MAX_ONE_WORKGROUP_DROPS) {
+        virga_dispatch_and_barrier(glass->base.context, cmd, glass->move_drops, 1);
+        return;
+    }
+    for (uint32_t i = 0; i <= ROUNDS; i++) {
+        const uint32_t round[2] = {i, ROUNDS};
+        push(glass, cmd, round, 2);
+        const size_t groups_of_round = offsetof(virga_glass_state_gpu, round_groups) + i * 3 * sizeof(uint32_t);
+        over(glass, cmd, glass->choose_cell, i < ROUNDS ? groups_of_round : ACTIVE);
+        if (i < ROUNDS)
+            over(glass, cmd, glass->enter_cell, groups_of_round);
+    }
+}
+
 /* The mesh model: section 4.1. */
 static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
@@ -366,14 +385,7 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
     over(glass, cmd, glass->begin_tick, ALIVE);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->active_scan, 1);
     over(glass, cmd, glass->active_compact, ALIVE);
-    for (uint32_t i = 0; i <= ROUNDS; i++) {
-        const uint32_t round[2] = {i, ROUNDS};
-        push(glass, cmd, round, 2);
-        const size_t groups_of_round = offsetof(virga_glass_state_gpu, round_groups) + i * 3 * sizeof(uint32_t);
-        over(glass, cmd, glass->choose_cell, i < ROUNDS ? groups_of_round : ACTIVE);
-        if (i < ROUNDS)
-            over(glass, cmd, glass->enter_cell, groups_of_round);
-    }
+    record_rounds(glass, cmd);
     over(glass, cmd, glass->capture_mark, ACTIVE);
     over(glass, cmd, glass->capture, ALIVE);
     virga_pass_end(glass->base.context, cmd, scope);

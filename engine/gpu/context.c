@@ -38,6 +38,8 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     if ((uint32_t)def->pipeline_build_mode > VIRGA_PIPELINES_ON_USE)
         return virga_wrong_argument(log, "context_def.pipeline_build_mode: there is no %d",
                                     (int)def->pipeline_build_mode);
+    if ((uint32_t)def->variants > VIRGA_VARIANTS_GPU)
+        return virga_wrong_argument(log, "context_def.variants: there is no %d", (int)def->variants);
     if ((def->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS) != (def->pipeline_jobs.run != NULL))
         return virga_wrong_argument(log, "context_def.pipeline_jobs: expected run with VIRGA_PIPELINES_AS_JOBS, and "
                                          "without it none");
@@ -66,6 +68,18 @@ static virga_result check_lines(const virga_context *context, const virga_contex
     if (!def->wide_lines || there.features.wideLines)
         return VIRGA_OK;
     return virga_wrong_argument(&context->log, "context_def.wide_lines: the device has no wideLines");
+}
+
+/* The one place that chooses between variants of passes, and how the log names the choice. */
+static void choose_variants(virga_context *context, const virga_context_def *def)
+{
+    static const char *const names[2][2] = {{"passes for a GPU", "passes for a GPU as demanded"},
+                                            {"passes for software Vulkan", "passes for software Vulkan as demanded"}};
+    context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    context->for_software =
+        def->variants == VIRGA_VARIANTS_OF_DEVICE ? context->software : def->variants == VIRGA_VARIANTS_SOFTWARE;
+    context->variants_name = names[context->for_software][def->variants != VIRGA_VARIANTS_OF_DEVICE];
+    context->lines = def->wide_lines && context->for_software && context->properties.limits.strictLines;
 }
 
 static virga_result create_samplers(virga_context *context)
@@ -126,9 +140,8 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     }
     TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
     context->vk.GetPhysicalDeviceProperties(def->physical_device, &context->properties);
-    context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     TRY(check_lines(context, def));
-    context->lines = def->wide_lines && context->software && context->properties.limits.strictLines;
+    choose_variants(context, def);
     /* The device alone decides, not the sizes of pools, so that a device has one variant of each pipeline. Desktop GPUs
      * allow 2^27 texels or more in a view, phones often only what Vulkan guarantees. */
     context->small_views = context->properties.limits.maxTexelBufferElements < LARGEST_POOL_TEXELS;
@@ -169,9 +182,9 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
         free_context(made);
         return result;
     }
-    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s%s, %u frames in flight",
+    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s%s, %s, %u frames in flight",
                     made->properties.deviceName, made->software ? ", software Vulkan without a GPU" : "",
-                    made->frames_in_flight);
+                    made->variants_name, made->frames_in_flight);
     *context = made;
     return VIRGA_OK;
 }

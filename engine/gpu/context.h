@@ -22,7 +22,9 @@ struct virga_context {
     VkPhysicalDeviceMemoryProperties memory_properties;
     VkPhysicalDeviceProperties properties;
     bool lost;
-    bool software;    /* the device is a CPU: passes have variants that are faster there */
+    bool software;     /* the device is a CPU */
+    bool for_software; /* run the variants of passes that are fastest on a CPU, see virga_context_def.variants */
+    const char *variants_name;
     bool lines;       /* draw streaks of about one pixel as lines, see virga_context_def.wide_lines */
     bool small_views; /* buffer views are too small for pools: read storage buffers, see shaders/gpu/texels.glsl */
     bool debug_names;

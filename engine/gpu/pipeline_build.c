@@ -12,13 +12,15 @@ typedef struct constants {
     VkBool32 small_views; /* constant 1: see shaders/gpu/texels.glsl */
     VkBool32 encoded;     /* constants 2 and 3: see shaders/gpu/encode.glsl */
     float blend_background;
+    VkBool32 for_gpu; /* constant 4: see shaders/gpu/variants.glsl */
 } constants;
 
 static const VkSpecializationMapEntry constant_entries[] = {
     {0, offsetof(constants, own), sizeof((constants *)0)->own},
     {1, offsetof(constants, small_views), sizeof((constants *)0)->small_views},
     {2, offsetof(constants, encoded), sizeof((constants *)0)->encoded},
-    {3, offsetof(constants, blend_background), sizeof((constants *)0)->blend_background}};
+    {3, offsetof(constants, blend_background), sizeof((constants *)0)->blend_background},
+    {4, offsetof(constants, for_gpu), sizeof((constants *)0)->for_gpu}};
 
 static VkSpecializationInfo specialize(const constants *values)
 {
@@ -44,7 +46,8 @@ static void module_destroy(const virga_context *context, VkShaderModule module)
 VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
                              const char **call)
 {
-    const constants values = {def->constant, context->small_views};
+    const constants values = {
+        .own = def->constant, .small_views = context->small_views, .for_gpu = !context->for_software};
     const VkSpecializationInfo specialization = specialize(&values);
     VkShaderModule module = VK_NULL_HANDLE;
     VkResult result = module_create(context, def->shader, &module, call);
@@ -201,7 +204,11 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
 {
     VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
     VkPipelineShaderStageCreateInfo stages[2];
-    const constants values = {def->constant, context->small_views, def->encoded, def->blend_background};
+    const constants values = {.own = def->constant,
+                              .small_views = context->small_views,
+                              .encoded = def->encoded,
+                              .blend_background = def->blend_background,
+                              .for_gpu = !context->for_software};
     const VkSpecializationInfo specialization = specialize(&values);
     VkResult result = module_create(context, def->vertex, &modules[0], call);
     if (result == VK_SUCCESS)

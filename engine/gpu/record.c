@@ -108,8 +108,10 @@ void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_
 {
     virga_dispatch(context, cmd, find, groups);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, scan, 1);
-    virga_compute_barrier(context, cmd);
+    if (context->for_software) {
+        virga_dispatch(context, cmd, scan, 1);
+        virga_compute_barrier(context, cmd);
+    }
     virga_dispatch_and_barrier(context, cmd, list, (groups + 31) / 32);
 }
 

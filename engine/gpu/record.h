@@ -59,7 +59,7 @@ void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer
                                          VkBuffer arguments, VkDeviceSize offset);
 
 /* Ordered stream compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. The last pass
- * has an invocation per 32 slots. Ends with a barrier: the next pass may read the list. */
+ * has an invocation per 32 slots. GPUs have no `scan`. Ends with a barrier: the next pass may read the list. */
 void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
                        const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
 

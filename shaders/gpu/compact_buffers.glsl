@@ -5,10 +5,12 @@
 //
 //     mark     compact_mark.glsl: each slot that is selected sets a bit in shared memory; 32 slots share a word
 //     scan     compact_scan.glsl: one workgroup computes the prefix sum of the bits in the words
-//     compact  compact_write.glsl: each selected slot's number is written to its index in the list, by an invocation
-// for
-//              each word of 32 slots, or for each slot
+//     compact  compact_write.glsl: each selected slot's number is written to its index in the list, by one invocation
+//              for each word of 32 slots, or for each slot
 //     use      the effect's own: an indirect dispatch as long as the list
+//
+// On a GPU a pass of one workgroup costs as much as waiting for it. Lists that virga_record_list records have no scan
+// there: mark, with begin_list, leaves the sums of each workgroup, and compact (compact_summed.glsl) adds them up.
 //
 // The list is in the order of the slots, in whatever order the device runs workgroups. A slot is selected as one of two
 // kinds. All entries of the second kind come first.
@@ -41,6 +43,8 @@ layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer Li
 #endif
     uint listed[]; // slot numbers
 };
+
+#include "gpu/variants.glsl"
 
 #define NOT_SELECTED 0u
 #define FIRST_KIND 1u

@@ -17,6 +17,8 @@ struct virga_list_gpu {
     uint second_kind;    /* slots of the second kind; they come first in the list */
     uint first;          /* free for the pass to use: index in its output of the list's first entry */
     uint word_count;     /* number of 32-bit words of the selection, one bit per slot */
+    uint capacity;       /* room of the list, where no pass scans the selection */
+    uint found;          /* selected slots, also those without room; only where no pass scans the selection */
     uint pad;
 };
 
@@ -24,7 +26,7 @@ struct virga_list_gpu {
 /* size of the buffer of the selection; `slots` is a multiple of the workgroup size */
 #define VIRGA_SELECTION_BYTES(slots) ((slots) / 32 * 16)
 
-VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_list_gpu, 40);
 #undef uint
 #endif
 

@@ -139,6 +139,7 @@ static void fill_context_def(calls *c, uint32_t index, virga_context_def *out)
     out->pipeline_build_mode = (virga_pipeline_build_mode)calls_below(c, 4);
     if (out->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS)
         out->pipeline_jobs.run = run_job;
+    out->variants = (virga_pass_variants)calls_below(c, 3);
     if (!c->device->honest && calls_once_in(c, 4))
         CALLS_WILD(c, out, kept);
 }

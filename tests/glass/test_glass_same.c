@@ -131,8 +131,8 @@ static void only_processors_shuffle(void **state)
     open_small(&s);
     const virga_glass_def def = s.glass->def;
     REQUIRE(s.context->software == (s.context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
-    REQUIRE(s.context->software || s.glass->picture.lanes == 0);
-    s.context->software = false;
+    REQUIRE(s.context->for_software || s.glass->picture.lanes == 0);
+    s.context->for_software = false;
     virga_glass *other = NULL;
     REQUIRE(virga_glass_create(s.context, &def, &other) == VIRGA_OK);
     REQUIRE(other->picture.lanes == 0);

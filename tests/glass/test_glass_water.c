@@ -310,6 +310,18 @@ static void same_bits_whatever_the_frames_and_threads(void **unused)
     effect_device_set_threads(NO_THREADS);
 }
 
+static void same_bits_by_passes_for_software_and_for_a_gpu(void **unused)
+{
+    (void)unused;
+    effect_fixture_variants = VIRGA_VARIANTS_SOFTWARE;
+    const uint64_t first = run_of(12, "1");
+    effect_fixture_variants = VIRGA_VARIANTS_GPU;
+    assert_int_equal(first, run_of(12, "1"));
+    assert_int_equal(first, run_of(4, "2"));
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+    effect_device_set_threads(NO_THREADS);
+}
+
 static uint32_t marked_blocks(void)
 {
     uint32_t marked = 0;
@@ -349,6 +361,7 @@ int main(void)
         cmocka_unit_test(budget_and_cells_hold_over_10000_ticks),
         cmocka_unit_test(nothing_leaves_an_odd_pane_under_opposed_blades),
         cmocka_unit_test(same_bits_whatever_the_frames_and_threads),
+        cmocka_unit_test(same_bits_by_passes_for_software_and_for_a_gpu),
         cmocka_unit_test(blocks_are_marked_while_they_have_film),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

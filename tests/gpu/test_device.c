@@ -268,6 +268,40 @@ static void wide_lines_that_a_device_lacks_are_refused(void **state)
     virga_context_destroy(&context);
 }
 
+/* The context's log line names the variants of passes, and that they were demanded. */
+static void check_variants(gpu_fixture *f, virga_pass_variants variants, const char *expected)
+{
+    virga_context_def def = gpu_context_def(f);
+    virga_context *context = NULL;
+    def.variants = variants;
+    gpu_forget_log(f);
+    assert_int_equal(virga_context_create(&def, &context), VIRGA_OK);
+    if (!strstr(f->last, expected))
+        fail_msg("expected '%s' in '%s'", expected, f->last);
+    virga_context_destroy(&context);
+}
+
+static void variants_of_passes_are_named_in_the_log(void **state)
+{
+    gpu_fixture *f = *state;
+    const bool software = f->gpu.device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    check_variants(f, VIRGA_VARIANTS_OF_DEVICE, software ? "passes for software Vulkan, 3" : "passes for a GPU, 3");
+    check_variants(f, VIRGA_VARIANTS_SOFTWARE, "passes for software Vulkan as demanded, 3");
+    check_variants(f, VIRGA_VARIANTS_GPU, "passes for a GPU as demanded, 3");
+}
+
+static void variants_that_do_not_exist_are_refused(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context_def def = gpu_context_def(f);
+    virga_context *context = NULL;
+    def.variants = (virga_pass_variants)3;
+    gpu_forget_log(f);
+    assert_int_equal(virga_context_create(&def, &context), VIRGA_ERROR_INVALID);
+    assert_one_error(f, VIRGA_LOG_ARGUMENT);
+    assert_non_null(strstr(f->last, "variants: there is no 3"));
+}
+
 static void device_without_a_format_is_refused(void **state)
 {
     watch.lie_format = lie_format;
@@ -318,6 +352,8 @@ int main(void)
         gpu_test(device_with_few_storage_buffers_is_refused),
         gpu_test(device_without_a_required_feature_is_refused),
         gpu_test(wide_lines_that_a_device_lacks_are_refused),
+        gpu_test(variants_of_passes_are_named_in_the_log),
+        gpu_test(variants_that_do_not_exist_are_refused),
         gpu_test(device_without_a_format_is_refused),
         gpu_test(instance_without_a_function_is_refused),
         gpu_test(instance_of_vulkan_1_0_is_named),

@@ -122,6 +122,18 @@ static inline int effect_fixture_close(int failed)
 
 /* Device and context. Exits with 77 if there is no device. Timings are off, except in tests of timings: their barriers
  * around each pass would hide missing ones. */
+/* Variants of passes of the contexts that are opened from now on. By default as VIRGA_TEST_VARIANTS says. */
+static virga_pass_variants effect_fixture_variants;
+
+static inline virga_pass_variants effect_fixture_wanted_variants(void)
+{
+    const char *wanted = getenv("VIRGA_TEST_VARIANTS");
+    return effect_fixture_variants ? effect_fixture_variants
+           : !wanted               ? VIRGA_VARIANTS_OF_DEVICE
+           : strcmp(wanted, "gpu") ? VIRGA_VARIANTS_SOFTWARE
+                                   : VIRGA_VARIANTS_GPU;
+}
+
 static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, virga_log_fn log, void *user)
 {
     effect_device_lend(gpu);
@@ -136,6 +148,7 @@ static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, vir
     def.log_user = user;
     def.log_repeats = true;
     def.timings = timings;
+    def.variants = effect_fixture_wanted_variants();
     def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE; /* most tests use few */
     virga_context *context = NULL;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);

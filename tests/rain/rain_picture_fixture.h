@@ -118,12 +118,18 @@ static inline void open_shot_of(shot *s, const virga_rain_def *def, float rate_m
 }
 
 /* In the open. */
-static inline void open_shot(shot *s, float rate_mm_h)
+static inline virga_rain_def shot_def(void)
 {
     virga_rain_def def = virga_default_rain_def();
     def.max_drops = 16384;
     def.range_m = 8;
     def.occlusion_size = 0;
+    return def;
+}
+
+static inline void open_shot(shot *s, float rate_mm_h)
+{
+    const virga_rain_def def = shot_def();
     open_shot_of(s, &def, rate_mm_h);
 }
 

@@ -49,6 +49,16 @@ static void two_runs_give_the_same_bits(void **state)
     assert_true(hash_of_run(7) == hash_of_run(7));
 }
 
+static void passes_for_software_and_for_a_gpu_give_the_same_bits(void **state)
+{
+    (void)state;
+    effect_fixture_variants = VIRGA_VARIANTS_SOFTWARE;
+    const uint64_t software = hash_of_run(7);
+    effect_fixture_variants = VIRGA_VARIANTS_GPU;
+    assert_true(hash_of_run(7) == software);
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+}
+
 static void another_seed_gives_another_field(void **state)
 {
     (void)state;
@@ -216,6 +226,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_runs_give_the_same_bits),
+        cmocka_unit_test(passes_for_software_and_for_a_gpu_give_the_same_bits),
         cmocka_unit_test(another_seed_gives_another_field),
         cmocka_unit_test(a_cut_of_the_camera_and_back_shows_the_same_drops),
         cmocka_unit_test(the_way_of_the_camera_does_not_matter),

@@ -68,9 +68,8 @@ static bool is_line_by(const shot *s, const virga_streak_gpu *streak, double mar
 }
 
 /* Heavy rain before a camera that sees much of it: near by big drops are wide. */
-static void prepare_shot(shot *s, float rate_mm_h)
+static void aim_shot(shot *s)
 {
-    open_shot(s, rate_mm_h);
     add_picture(s, 640, 480);
     s->f.settings.streak_min_mm = 0.2F;
     s->f.settings.streak_gain = 4;
@@ -80,6 +79,12 @@ static void prepare_shot(shot *s, float rate_mm_h)
     host_camera_at(&path, 0, 640, 480, NULL, &s->camera);
     s->open = s->camera;
     draw_frame(s, 0.2);
+}
+
+static void prepare_shot(shot *s, float rate_mm_h)
+{
+    open_shot(s, rate_mm_h);
+    aim_shot(s);
 }
 
 static void each_streak_is_drawn_once(void **state)
@@ -168,6 +173,41 @@ static void the_thinnest_are_lines_where_the_device_has_them(void **state)
     close_shot(&s);
 }
 
+/* Of the streaks, the indices and the draws. Without lines, which only one of the variants has. */
+static uint64_t hash_of_order(virga_pass_variants variants, uint32_t max_streaks, uint32_t *dropped)
+{
+    shot s;
+    virga_rain_def def = shot_def();
+    def.max_streaks = max_streaks;
+    effect_fixture_variants = variants;
+    open_shot_of(&s, &def, 100);
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+    s.f.context->lines = false;
+    aim_shot(&s);
+    const virga_prepared_gpu *prepared = prepared_of(&s);
+    const virga_draw_gpu *thin = &prepared->thin_quads;
+    uint64_t hash = rain_fixture_hash(prepared, sizeof *prepared, HASH_START);
+    hash = rain_fixture_hash(streak_list(&s), streak_count(&s) * sizeof(virga_streak_gpu), hash);
+    hash = rain_fixture_hash(s.order.mapped, (thin->first_index + thin->index_count) * sizeof(uint32_t), hash);
+    *dropped = prepared->dropped;
+    close_shot(&s);
+    return hash;
+}
+
+/* With room for all streaks, and for some. */
+static void passes_for_software_and_for_a_gpu_give_the_same_order(void **state)
+{
+    (void)state;
+    const uint32_t rooms[2] = {0, 300}; /* 0: for all */
+    uint32_t dropped[2];
+    for (int i = 0; i < 2; i++) {
+        const uint64_t software = hash_of_order(VIRGA_VARIANTS_SOFTWARE, rooms[i], &dropped[0]);
+        assert_true(hash_of_order(VIRGA_VARIANTS_GPU, rooms[i], &dropped[1]) == software);
+        assert_int_equal(dropped[0], dropped[1]);
+        assert_int_equal(dropped[0] > 0, i);
+    }
+}
+
 static uint64_t sum_of_streaks(const shot *s)
 {
     const virga_prepared_gpu *prepared = prepared_of(s);
@@ -205,6 +245,7 @@ int main(void)
         cmocka_unit_test(wide_streaks_keep_their_order),
         cmocka_unit_test(thin_streaks_follow_the_picture),
         cmocka_unit_test(the_thinnest_are_lines_where_the_device_has_them),
+        cmocka_unit_test(passes_for_software_and_for_a_gpu_give_the_same_order),
         cmocka_unit_test(a_view_without_rain_draws_nothing_in_order),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -16,9 +16,10 @@ bool bench_fail(bench *b, const char *what)
 virga_context_def bench_context_def(const bench *b)
 {
     virga_context_def def = host_context_def(&b->device);
+    def.variants = b->variants;
     if (b->model) {
         def.get_instance_proc_addr = counting_get;
-        def.timings = false; /* on software Vulkan they come with barriers of their own, which no card has */
+        def.variants = b->variants ? b->variants : VIRGA_VARIANTS_GPU;
     }
     return def;
 }
@@ -71,6 +72,7 @@ bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size
 void bench_close(bench *b)
 {
     const model_card *model = b->model;
+    const virga_pass_variants variants = b->variants;
     virga_target_destroy(&b->layer);
     virga_context_destroy(&b->context);
     if (b->device.device) {
@@ -87,6 +89,7 @@ void bench_close(bench *b)
         host_instance_destroy(&b->instance);
     memset(b, 0, sizeof *b);
     b->model = model;
+    b->variants = variants;
 }
 
 void bench_view(virga_view *view, uint32_t size)
@@ -153,14 +156,6 @@ bool bench_begin(bench *b, VkCommandBuffer *cmd)
     if (b->model)
         counting_end_frame();
     return virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
-}
-
-void bench_forget_model(const bench *b)
-{
-    if (!b->model)
-        return;
-    counting_end_frame();
-    counting_forget();
 }
 
 double bench_print_model(const bench *b)

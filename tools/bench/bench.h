@@ -21,15 +21,16 @@ typedef struct bench {
     virga_occluder floor;
     virga_context *context;
     virga_target *layer;
+    virga_pass_variants variants; /* of the context; set before bench_open */
     const model_card *model; /* set before bench_open: passes are counted, and bench_print_model prints their times */
     char error[512];
 } bench;
 
 /* Opens a device, and creates a floor, targets, and a context with this pipeline cache. *b must be all zero but for its
- * model. */
+ * model and variants. With a model the variants are those for a GPU, unless they are chosen. */
 bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipeline_build_mode when);
 
-/* Destroys all of it; *b is all zero afterwards but for its model. */
+/* Destroys all of it; *b is all zero afterwards but for its model and variants. */
 void bench_close(bench *b);
 
 /* For a further context on the device: with the counting, if there is a model. */
@@ -49,9 +50,6 @@ double bench_pass_ms(const bench *b, const char *name);
 /* Time of a draw in the newest frame, which took `frame_ms` with all that was recorded. A software device does not time
  * draws: there it is what the frame's timed passes leave. */
 double bench_draw_ms(const bench *b, const char *name, double frame_ms);
-
-/* With a model: forgets the passes so far, e.g. those of a first frame. */
-void bench_forget_model(const bench *b);
 
 /* With a model: the modelled times of the passes since the last call, each in its newest frame. Returns
  * their sum in milliseconds. Else nothing, and 0. */

@@ -172,6 +172,14 @@ typedef struct virga_pipeline_jobs {
     void (*run)(void *user, void (*job)(void *data), void *data);
 } virga_pipeline_jobs;
 
+/* Which variants of passes run. Some passes exist twice: in the way that is fastest on software Vulkan, and in the way
+ * that is fastest on a GPU. States have the same bits with both. Pictures may differ in the last bits of a colour. */
+typedef enum virga_pass_variants {
+    VIRGA_VARIANTS_OF_DEVICE = 0, /* by the type of the device */
+    VIRGA_VARIANTS_SOFTWARE = 1,  /* those for software Vulkan, on any device */
+    VIRGA_VARIANTS_GPU = 2,       /* those for GPUs, on any device */
+} virga_pass_variants;
+
 /* Arguments of virga_context_create. Fill with virga_default_context_def. */
 typedef struct virga_context_def {
     uint32_t size, cookie; /* set by the default function */
@@ -227,9 +235,13 @@ typedef struct virga_context_def {
 
     /* The device was created with the feature wideLines. A device without that feature is refused. Streaks and droplets
      * of the minimum width are then drawn as lines instead of quads, where measurements showed that to be faster: on
-     * software devices with strictLines. Drawing rain then takes two thirds to three quarters of the time, drawing
-     * splashes half to three quarters. The picture is the same. Default false. */
+     * software devices with strictLines, see `variants`. Drawing rain then takes two thirds to three quarters of the
+     * time, drawing splashes half to three quarters. The picture is the same. Default false. */
     bool wide_lines;
+
+    /* Which variants of passes run. The log line of the context names them. Other values than
+     * VIRGA_VARIANTS_OF_DEVICE are for tests and measurements. Default VIRGA_VARIANTS_OF_DEVICE. */
+    virga_pass_variants variants;
 
     /* Writes timestamps around each pass. Ignored where the queue has no timestamps. Costs two timestamps per pass. On
      * a software device it also costs two barriers per pass, so that passes run one after another. Default true. */

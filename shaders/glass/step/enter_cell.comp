@@ -10,29 +10,10 @@
 #define FEW
 #include "live.glsl"
 #include "rounds.glsl"
+#include "enter_cell.glsl"
 
 void main()
 {
-    const uint slot = active_slot();
-    if (slot == NONE)
-        return;
-    const uint old_target = drops[slot].absorbed_by;
-    if (old_target < OUTSIDE && (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_PARTICLE)
-        claims[claim_of(old_target, round_index + 1u)] = NONE;
-    const uint target = drops[slot].target;
-    if (target >= OUTSIDE || (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP)
-        return;
-    passed[drops[slot].cell] = tick.tick; // several invocations may write the same value
-    passed[target] = tick.tick;
-    const uint occupant = occupants[target];
-    const bool occupied = occupant != 0u && drops[occupant - 1u].target == NONE;
-    const uint first = claims[claim_of(target, round_index)];
-    if (!occupied && first == slot) {
-        drops[slot].from_cell = drops[slot].cell;
-        drops[slot].cell = target;
-        return;
-    }
-    transfer_water(occupied ? occupant - 1u : first, drops[slot]);
-    clear_slot(slot);
-    count(VIRGA_GLASS_MERGED, 1u);
+    if (gl_GlobalInvocationID.x < state.active_count)
+        enter_cell(gl_GlobalInvocationID.x);
 }

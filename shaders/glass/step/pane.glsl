@@ -6,13 +6,19 @@
 
 layout(scalar, set = 0, binding = 0) uniform Tick { virga_glass_tick_gpu tick; };
 layout(scalar, set = 0, binding = 1) buffer State { virga_glass_state_gpu state; };
-layout(scalar, set = 0, binding = 2) buffer Drops { virga_glass_drop_gpu drops[]; };
+// What one invocation writes and another reads later in the same pass must be coherent.
+#ifdef ONE_WORKGROUP
+#define EXCHANGED coherent
+#else
+#define EXCHANGED
+#endif
+layout(scalar, set = 0, binding = 2) EXCHANGED buffer Drops { virga_glass_drop_gpu drops[]; };
 // two arrays, one behind the other, with a claim per cell
-layout(scalar, set = 0, binding = 5) buffer Claims { uint claims[]; };
-layout(scalar, set = 0, binding = 6) buffer Occupants { uint occupants[]; }; // slot + 1 of the drop in a cell; 0: none
-layout(scalar, set = 0, binding = 7) buffer Film { uint film[]; };           // nl
+layout(scalar, set = 0, binding = 5) EXCHANGED buffer Claims { uint claims[]; };
+layout(scalar, set = 0, binding = 6) EXCHANGED buffer Occupants { uint occupants[]; }; // slot + 1; 0: no drop
+layout(scalar, set = 0, binding = 7) EXCHANGED buffer Film { uint film[]; };           // nl
 // The tick in which a drop last ran over a cell; 0: never.
-layout(scalar, set = 0, binding = 8) buffer Passed { uint passed[]; };
+layout(scalar, set = 0, binding = 8) EXCHANGED buffer Passed { uint passed[]; };
 layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]; };
 layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; };
 #define NODES_BINDING 13

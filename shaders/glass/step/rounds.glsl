@@ -6,11 +6,18 @@
 //                  a drop at rest merges with that: water and momentum are added as integers, in any order
 //
 // A cell whose drop leaves in this round is free for others: two drops that follow each other do not merge.
+// Claims alternate between two arrays: one is cleared while the other is used. In the last call of choose_cell
+// round_index == rounds: it only records moves.
+#ifdef ONE_WORKGROUP
+uint round_index;
+const uint rounds = VIRGA_GLASS_ROUNDS;
+#else
 layout(push_constant) uniform Round
 {
-    uint round_index; // claims alternate between two arrays: one is cleared while the other is used
-    uint rounds;      // in the last call of choose_cell round_index == rounds: it only records moves
+    uint round_index;
+    uint rounds;
 };
+#endif
 
 uint claim_of(uint cell, uint of_round) { return cell + (of_round & 1u) * cell_count(); }
 

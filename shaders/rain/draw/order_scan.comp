@@ -1,5 +1,5 @@
 // order_scan.comp - prefix sum of the counts: where the streaks of each bucket and workgroup begin. See order.glsl.
-// One invocation per bucket. Reads: counts. Writes: counts.
+// One invocation per bucket. Reads: counts. Writes: counts; on GPUs draw arguments.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,6 +10,7 @@
 #include "gpu/compact_buffers.glsl"
 #include "order.glsl"
 #include "gpu/group_scan.glsl"
+#include "order_draws.glsl"
 
 layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
 
@@ -20,6 +21,8 @@ layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
 void main()
 {
     const uint lane = gl_LocalInvocationIndex;
+    if (FOR_GPU && gl_GlobalInvocationID.x == 0u)
+        begin_draws(list.found);
     const uint first_bucket = gl_WorkGroupID.x * SCAN_LANES, bucket = first_bucket + lane;
     uint before = 0u; // streaks in the buckets of the workgroups before
     for (uint i = lane; i < first_bucket; i += SCAN_LANES)

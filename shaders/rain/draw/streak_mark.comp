@@ -1,5 +1,5 @@
 // streak_mark.comp - streaks, mark: selects the slots whose drops a view may see. Second kind: wide streaks.
-// One invocation per slot. Reads: slots, drops. Writes: selection.
+// One invocation per slot. Reads: slots, drops. Writes: selection; on GPUs the counts of order_count.comp (cleared).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,6 +7,7 @@
 #include "view.glsl"
 #include "rain/compact.glsl"
 #include "gpu/compact_mark.glsl"
+#include "order.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
@@ -51,5 +52,8 @@ uint kind_of_streak(uint slot_index)
 void main()
 {
     const uint slot_index = gl_GlobalInvocationID.x;
+    begin_list(look.max_streaks);
+    if (FOR_GPU && gl_WorkGroupID.x == 0u)
+        order[total_index(gl_LocalInvocationIndex)] = 0u; // for order_count.comp
     mark_selected(kind_of_streak(slot_index));
 }

@@ -10,4 +10,8 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { mark_selected(start_traversal(slot_at(gl_GlobalInvocationID.x)).has_next ? FIRST_KIND : NOT_SELECTED); }
+void main()
+{
+    begin_list(pane.groups * VIRGA_RAIN_GROUP);
+    mark_selected(start_traversal(slot_at(gl_GlobalInvocationID.x)).has_next ? FIRST_KIND : NOT_SELECTED);
+}

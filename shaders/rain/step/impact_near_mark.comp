@@ -10,4 +10,8 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { mark_selected(is_near_surface(gl_GlobalInvocationID.x) ? FIRST_KIND : NOT_SELECTED); }
+void main()
+{
+    begin_list(tick.groups * VIRGA_RAIN_GROUP);
+    mark_selected(is_near_surface(gl_GlobalInvocationID.x) ? FIRST_KIND : NOT_SELECTED);
+}

@@ -11,9 +11,4 @@
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
-void main()
-{
-    const uint word = gl_GlobalInvocationID.x;
-    if (word < list.word_count)
-        write_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
-}
+void main() { write_own_word(); }

@@ -18,6 +18,8 @@ static const option_row own_rows[] = {
      "after each measurement, the time that each pass would take on such a card, modelled from "
      "what it was counted to do; times that are measured beside it are of no use. Without a name: frames",
      false},
+    {"--variants", 0, "software|gpu",
+     "run the variants of passes for software Vulkan or for GPUs. Default: by the device, and gpu with --model", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
 };
 
@@ -104,10 +106,21 @@ static bool find_model(const options *parsed, const model_card **card)
     return !name || *card || options_complain("bench", "--model: expected desktop or handheld, got '%s'", name);
 }
 
+static bool find_variants(const options *parsed, virga_pass_variants *variants)
+{
+    const char *name = options_value(parsed, "--variants");
+    *variants = !name                       ? VIRGA_VARIANTS_OF_DEVICE
+                : !strcmp(name, "software") ? VIRGA_VARIANTS_SOFTWARE
+                                            : VIRGA_VARIANTS_GPU;
+    return !name || !strcmp(name, "software") || !strcmp(name, "gpu") ||
+           options_complain("bench", "--variants: expected software or gpu, got '%s'", name);
+}
+
 static bool check_options(const options *parsed, uint32_t *passes)
 {
     const model_card *card;
-    if (!find_model(parsed, &card))
+    virga_pass_variants variants;
+    if (!find_model(parsed, &card) || !find_variants(parsed, &variants))
         return false;
     if (!options_uint(parsed, "--passes", 1, BENCH_MAX_PASSES, passes))
         return false;
@@ -149,7 +162,8 @@ int bench_run(int argc, char **argv)
     bench *b = calloc(1, sizeof *b);
     if (!b)
         return EXIT_FAILED;
-    bool good = find_model(&parsed, &b->model) && run_bench(b, found, &parsed, passes);
+    bool good =
+        find_model(&parsed, &b->model) && find_variants(&parsed, &b->variants) && run_bench(b, found, &parsed, passes);
     if (b->instance.messages)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
     bench_close(b);
