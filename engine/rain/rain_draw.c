@@ -161,7 +161,8 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->order_count, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, rain->order_scan, VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES);
+    virga_dispatch(context, cmd, rain->order_scan,
+                   context->for_software ? VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES : VIRGA_RAIN_BUCKETS);
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->order_indices, rain->list_buffer->buffer, 0);
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES);
