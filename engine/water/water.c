@@ -273,8 +273,8 @@ static const virga_effect_image images[] = {
     {"water.thickness", AT(picture.thickness), VK_FORMAT_R32_SFLOAT, COLOR,
      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_PYRAMID_COLUMNS, COUNT_PYRAMID_ROWS, 1,
      VIRGA_FIRST_STORAGE, .per_view = true},
-    {"water.gaps", AT(picture.gaps), VK_FORMAT_R32_SFLOAT, COLOR,
-     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_COLUMNS, COUNT_ROWS, 1, VIRGA_FIRST_STORAGE},
+    {"water.gaps", AT(picture.gaps), VK_FORMAT_R32_UINT, COLOR, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT,
+     COUNT_COLUMNS, COUNT_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     BLANK_DEPTH("water.blank_depth", picture.blank_depth),
     BLANK_COLOR("water.blank_color", picture.blank_color),
 };

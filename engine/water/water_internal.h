@@ -62,7 +62,7 @@ typedef struct water_picture {
     VIRGA_PER_VIEW(virga_offscreen, colors); /* sums of colors, depth */
     VIRGA_PER_VIEW(virga_image_2d, thickness);
     VIRGA_PER_VIEW(virga_buffer, foam_splats);
-    virga_image_2d *gaps;                      /* of a view while it is prepared: what its nearest water leaves open */
+    VIRGA_PER_VIEW(virga_image_2d, gaps);      /* what the nearest water leaves open, see splat_gaps.comp */
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest block */

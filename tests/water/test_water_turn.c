@@ -111,13 +111,17 @@ typedef struct turn {
     float least;
 } turn;
 
-static void look_from(double angle, double distance, double up, turn *t)
+static void aim_from(double angle, double distance, double up)
 {
     const double to[3] = {body.low[0] + 0.5 * body.count[0] * body.cell_m, 0.5 * (body.bottom_m + body.top_m),
                           body.low[1] + 0.5 * body.count[1] * body.cell_m};
     const double at[3] = {to[0] + distance * cos(up) * cos(angle), to[1] + distance * sin(up),
                           to[2] + distance * cos(up) * sin(angle)};
     shot_aim(&s, at, to);
+}
+
+static void count_holes(turn *t)
+{
     shot_draw(&s);
     for (uint32_t i = 0; i < width * height; i++) {
         double ray[3];
@@ -129,6 +133,12 @@ static void look_from(double angle, double distance, double up, turn *t)
         t->holes += !(alpha > 0.95f);
         t->least = fminf(t->least, alpha);
     }
+}
+
+static void look_from(double angle, double distance, double up, turn *t)
+{
+    aim_from(angle, distance, up);
+    count_holes(t);
 }
 
 static void check(const char *name, uint32_t count, const turn *t)
@@ -164,6 +174,37 @@ static void look_along_crests(void)
     }
 }
 
+/* Parts of a picture of 1280 x 720, at its scale, around pixels that once were holes. */
+static void look_at_old_holes(void)
+{
+    static const struct {
+        virga_water_kernel kernel;
+        double angle, up, x, y;
+    } holes[] = {
+        {VIRGA_WATER_KERNEL_ISOTROPIC, 1.49626, 0.2, 541, 321},   /* what neighbours closed in part hid water behind */
+        {VIRGA_WATER_KERNEL_ANISOTROPIC, 1.84533, 0.2, 716, 302}, /* the same */
+        {VIRGA_WATER_KERNEL_ANISOTROPIC, 3.06706, 0.6, 614, 449}, /* weights add up to 1/2 along a sharp edge */
+        {VIRGA_WATER_KERNEL_ANISOTROPIC, 3.41613, 0.6, 734, 441}, /* the same */
+    };
+    const double slope = tan(FOV_DEG * M_PI / 360);
+    for (size_t i = 0; i < sizeof holes / sizeof holes[0]; i++) {
+        turn t = {.least = 1};
+        double at[3], to[3];
+        aim_from(holes[i].angle, 1, holes[i].up);
+        shot_ray(&s, (holes[i].x + 0.5) / 1280 * width, (holes[i].y + 0.5) / 720 * height, to);
+        for (int k = 0; k < 3; k++) {
+            at[k] = s.camera.position_m[k];
+            to[k] += at[k];
+        }
+        s.fov_deg = 360 / M_PI * atan(slope * height / 720);
+        s.f.settings.kernel = holes[i].kernel;
+        shot_aim(&s, at, to);
+        count_holes(&t);
+        check("an old hole", 1, &t);
+        s.fov_deg = 0;
+    }
+}
+
 static void open_turn(double spacing_m)
 {
     virga_water_def def = water_fixture_def();
@@ -192,6 +233,7 @@ static void a_pool_with_waves_has_no_holes(void **state)
     }
     turn_around("a pool with waves", 1);
     look_along_crests();
+    look_at_old_holes();
     shot_close(&s);
 }
 

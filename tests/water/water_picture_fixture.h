@@ -22,7 +22,7 @@ typedef struct shot {
     host_buffer extra;                                       /* for after_step */
     void (*after_step)(struct shot *s, VkCommandBuffer cmd); /* (optional) changes what the step made */
     host_camera camera, before;                              /* of this frame and of the one before */
-    double frame_interval_s;
+    double frame_interval_s, fov_deg;                        /* 0: FOV_DEG */
     bool reversed, no_color, no_depth;
     /* The scene: radiance and distance from the eye in a direction; INFINITY is the sky. NULL: a checkered floor. */
     double (*scene)(const struct shot *s, const double eye[3], const double direction[3], double rgb[3]);
@@ -150,7 +150,8 @@ static inline void shot_make_scene(shot *s)
 static inline void shot_aim(shot *s, const double at[3], const double to[3])
 {
     const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
-    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.02, .far_m = 100};
+    const double fov = s->fov_deg > 0 ? s->fov_deg : FOV_DEG;
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = fov, .near_m = 0.02, .far_m = 100};
     host_camera_at(&path, 0, s->width, s->height, NULL, &s->camera);
     s->before = s->camera;
     shot_make_scene(s);

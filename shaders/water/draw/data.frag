@@ -9,6 +9,7 @@
 #include "gpu/scene_depth.glsl"
 #define SCALED (look.scale < 1.0)
 #include "surface.glsl"
+#include "covered.glsl"
 
 layout(location = 0) flat in uint what;
 layout(location = 0) out vec4 data;
@@ -17,9 +18,8 @@ void main()
 {
     const vec2 at = image_pixel(gl_FragCoord.xy);
     const vec4 sums = sums_at(at);
-    const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
-    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w, depth), slope, depth) : 0.0;
+    float covered = covered_at(at, sums, 0.0);
     if (view.depth_given != 0u)
         covered *= soft_edge(depth);
     if (covered < 0.5)

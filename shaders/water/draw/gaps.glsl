@@ -1,6 +1,13 @@
-// gaps.glsl - the share of water behind the nearest one, see splat_gaps.comp.
-layout(set = 0, binding = 29) uniform sampler2D gaps_image;
+// gaps.glsl - what splat_gaps.comp has found at each pixel of the effect's images.
+layout(set = 0, binding = 29) uniform usampler2D gaps_image;
 
-#define FILL 4.0 // the weight of water behind an open pixel: more than 1, so that little is left of what is in front
+struct Gap {
+    float fill;   // the weight of water behind the nearest one
+    float closed; // the sum of weights of the nearest, where that has no gap
+};
 
-float fill_here() { return FILL * texelFetch(gaps_image, ivec2(gl_FragCoord.xy), 0).r; }
+Gap gap_at(ivec2 texel)
+{
+    const vec2 both = unpackHalf2x16(texelFetch(gaps_image, texel, 0).r);
+    return Gap(both.x, both.y);
+}

@@ -10,7 +10,7 @@ layout(location = 0) out vec4 sums;
 
 void main()
 {
-    const float fill = fill_here(), inside = max(1.0 - dot(position, position), 0.0);
+    const float fill = gap_at(ivec2(gl_FragCoord.xy)).fill, inside = max(1.0 - dot(position, position), 0.0);
     if (fill <= 0.0)
         discard;
     sums = vec4(color_weight.rgb, 1.0) * (fill * color_weight.w * inside * inside);

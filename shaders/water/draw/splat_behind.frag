@@ -12,7 +12,7 @@ layout(location = 1) out vec4 motion_sums;
 
 void main()
 {
-    const float fill = fill_here(), inside = max(1.0 - dot(position, position), 0.0);
+    const float fill = gap_at(ivec2(gl_FragCoord.xy)).fill, inside = max(1.0 - dot(position, position), 0.0);
     if (fill <= 0.0 || facing_weight.z < 0.0) // specks hide nothing, and what hides them is a droplet
         discard;
     const float weight = fill * facing_weight.z * inside * inside;

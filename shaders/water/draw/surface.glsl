@@ -18,8 +18,6 @@ vec4 between_texels(sampler2D image, vec2 at, ivec2 size)
                share.y);
 }
 
-#define WHOLE 0.9 // from this sum of weights on a pixel is covered
-
 // Position in the effect's images.
 vec2 image_pixel(vec2 pixel) { return (pixel - vec2(view.viewport[0], view.viewport[1])) * look.scale; }
 
@@ -31,33 +29,6 @@ vec4 sums_at(vec2 at)
 
 // Radius of most surfels at a view depth, in pixels of the images.
 float surfel_px(float depth) { return look.surfel_scale * look.surfel_m / (look.pixel_angle * depth); }
-
-// The less of the sums of weights of two opposite neighbours.
-float weight_between(ivec2 texel, ivec2 aside)
-{
-    const ivec2 size = ivec2(look.width, look.height);
-    return min(texel_of(sums_image, texel + aside, size).w, texel_of(sums_image, texel - aside, size).w);
-}
-
-ivec2 direction_of(int i) { return i == 3 ? ivec2(1, -1) : ivec2(i != 1, i != 0); }
-
-// The sum of weights at a position, or that of two opposite neighbours if it is less than both. Surfels are not spread
-// evenly: where one surface ends before another, a few pixels may get little of both, and along a sharp edge of the
-// water a sum may be below 1/2 over as much as the radius of a surfel. Neighbours so far apart count if they are nearly
-// whole, and if there is some water in between.
-float closed_weight(vec2 at, float weight, float depth)
-{
-    const ivec2 texel = ivec2(at);
-    const float far_px = surfel_px(depth), between_far = smoothstep(0.15, 0.35, weight);
-    float closed = weight;
-    for (int i = 0; i < (far_px > 8.0 ? 12 : 8) && weight < WHOLE; i++)
-        closed = max(closed, weight_between(texel, (1 + (i >> 2)) * direction_of(i & 3)));
-    for (int i = 0; i < 8 && closed < WHOLE && between_far > 0.0 && far_px > 3.0; i++) {
-        const float between = weight_between(texel, ivec2(far_px * (i < 4 ? 0.5 : 1.0)) * direction_of(i & 3));
-        closed = max(closed, between_far * between * smoothstep(0.5, 0.75, between));
-    }
-    return closed;
-}
 
 float thickness_at(vec2 at)
 {

@@ -14,6 +14,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_DEPTH or 0
 #include "gpu/temporal.glsl"
 #define SCALED (look.scale < 1.0)
 #include "surface.glsl"
+#include "covered.glsl"
 #include "scene_color.glsl"
 #include "specks.glsl"
 #include "gpu/encode.glsl"
@@ -27,10 +28,9 @@ void main()
     const vec2 at = image_pixel(gl_FragCoord.xy);
     const ivec2 size = ivec2(look.width, look.height);
     const vec4 sums = sums_at(at);
-    const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const float depth = sums.z / max(sums.w, 1e-12);
     const vec4 moved = motion_sums_at(at);
-    float covered = sums.w > 1e-4 ? coverage_of(closed_weight(at, sums.w, depth) + moved.z, slope, depth) : 0.0;
+    float covered = covered_at(at, sums, moved.z);
     if (HAS_DEPTH)
         covered *= soft_edge(depth);
     const vec4 color = SCALED ? between_texels(color_image, at, size) : texelFetch(color_image, ivec2(at), 0);

@@ -14,6 +14,7 @@ layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
 #include "gpu/light.glsl"
 #include "gpu/temporal.glsl"
 #include "surface.glsl"
+#include "covered.glsl"
 #include "light.glsl"
 #include "contact.glsl"
 #include "specks.glsl"
@@ -25,13 +26,11 @@ void main()
 {
     const vec2 at = image_pixel(gl_FragCoord.xy);
     const vec4 sums = sums_at(at);
-    const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
     const vec4 moved = motion_sums_at(at);
     const vec3 ray = pixel_ray(gl_FragCoord.xy);
     Water water = Water(at, sums.z / max(sums.w, 1e-12), normal_of(sums.xy / max(sums.w, 1e-12)), 0.0, false);
     const vec3 bend_x = dFdx(water.normal), bend_y = dFdy(water.normal);
-    const float weight = sums.w > 1e-4 ? closed_weight(at, sums.w, water.depth) + moved.z : 0.0;
-    water.covered = sums.w > 1e-4 ? coverage_of(weight, slope, water.depth) : 0.0;
+    water.covered = covered_at(at, sums, moved.z);
     if (HAS_DEPTH)
         water = with_contact(water, ray);
     const float depth = water.depth;
