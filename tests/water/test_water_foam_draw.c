@@ -1,6 +1,8 @@
 /* How foam covers what is behind it, against closed forms. */
 #include "water_picture_fixture.h"
 
+#include <virga/shared/compact.h>
+
 #include "../../shaders/shared/foam.h"
 
 #define SIDE     96
@@ -34,7 +36,7 @@ static void inject(VkCommandBuffer cmd)
         in->slots[i] = i;
     effect_fixture_transfers(cmd);
     fill(cmd, water->foam.particles, 0, offsetof(struct injected, foam), sizeof in->foam);
-    fill(cmd, water->foam.slots, 32, offsetof(struct injected, slots), sizeof in->slots);
+    fill(cmd, water->foam.slots, sizeof(virga_list_gpu), offsetof(struct injected, slots), sizeof in->slots);
     const size_t first = offsetof(virga_water_state_gpu, foam_started);
     fill(cmd, water->state, first, offsetof(struct injected, counts) + first, sizeof in->counts - first);
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
