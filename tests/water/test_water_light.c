@@ -145,6 +145,68 @@ static void an_object_under_water_has_no_outline_beside_it(void **state)
     shot_close(&s);
 }
 
+/* Whether a ray that is refracted by the sheet meets the slab, at a point that the camera also sees without water, and
+ * that is not at the slab's edge in the picture. */
+static bool meets_slab(uint32_t x, uint32_t y)
+{
+    const float *m = s.camera.view_from_world, *p = s.camera.clip_from_view;
+    const double *eye = s.camera.position_m;
+    double ray[3], at[3], in[3], v[3];
+    shot_ray(&s, x + 0.5, y + 0.5, ray);
+    const double across = hypot(ray[0], ray[2]), t = -eye[1] / ray[1];
+    const double out = asin(sin(atan2(across, -ray[1])) / SHEET_WATER);
+    for (int i = 0; i < 3; i++) {
+        at[i] = eye[i] + t * ray[i];
+        in[i] = i == 1 ? -cos(out) : sin(out) * ray[i] / across;
+    }
+    const double distance = slab_distance(at, in);
+    if (!isfinite(distance))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] = (double)m[i] * (at[0] + distance * in[0]) + (double)m[4 + i] * (at[1] + distance * in[1]) +
+               (double)m[8 + i] * (at[2] + distance * in[2]) + (double)m[12 + i];
+    const double px = (0.5 - 0.5 * (double)p[0] * v[0] / v[2]) * SIDE,
+                 py = (0.5 - 0.5 * (double)p[5] * v[1] / v[2]) * SIDE;
+    for (int i = 0; i < 9; i++) {
+        double seen[3], rgb[3];
+        shot_ray(&s, px + 1.5 * (i % 3 - 1), py + 1.5 * (i / 3 - 1), seen);
+        const double to = shot_trace(&s, eye, seen, rgb);
+        if (rgb[0] < 1 || (i == 4 && fabs(to + v[2]) > 1e-4))
+            return false;
+    }
+    return true;
+}
+
+/* The way to the floor behind it may lead past it. */
+static void an_object_under_water_is_whole(void **state)
+{
+    (void)state;
+    static const double eyes[4][3] = {{0, 0.6, 0.3}, {0.2, 0.35, 0.4}, {-0.3, 0.2, 0.4}, {0.25, 0.16, 0.25}};
+    shot_open(&s, SIDE, SIDE);
+    s.scene = slab_scene;
+    sheet_fill(&s);
+    memset(&s.f.settings.lighting, 0, sizeof s.f.settings.lighting);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
+    uint32_t met = 0, missed = 0;
+    for (int i = 0; i < 8; i++) {
+        slab_low = -0.05;
+        slab_high = i < 4 ? -0.04 : -0.02;
+        shot_aim(&s, eyes[i % 4], (const double[3]){0, -0.05, 0});
+        shot_draw(&s);
+        shot_save(&s, (const char *[4]){"whole0", "whole1", "whole2", "whole3"}[i % 4]);
+        for (uint32_t k = 0; k < SIDE * SIDE; k++)
+            if (meets_slab(k % SIDE, k / SIDE)) {
+                met++;
+                missed += !is_red(k % SIDE, k / SIDE);
+            }
+        printf("%u pixels show a slab, %u should and do not\n", met, missed);
+    }
+    shot_close(&s);
+    REQUIRE(met > 2000);
+    REQUIRE(missed <= met / 500); /* the slab is a few pixels high from the side */
+}
+
 /* ---- thickness */
 
 static double black_scene(const shot *of, const double eye[3], const double direction[3], double rgb[3])
@@ -203,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer_say),
         cmocka_unit_test(an_object_under_water_has_no_outline_beside_it),
+        cmocka_unit_test(an_object_under_water_is_whole),
         cmocka_unit_test(the_thickness_of_a_ball_is_its_chord),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -6,6 +6,7 @@ layout(set = 0, binding = 19) uniform sampler2D panorama;
 
 #define STEPS 12    // at most, of the search for where a ray meets the scene
 #define CLOSE 0.002 // it ends when a step changes the length by less than this part
+#define BETWEEN_PX 3.0
 #define SAME  0.03  // and what it found counts if it does not miss the scene by more
 
 struct Point {
@@ -71,11 +72,32 @@ float next_length(Point point, Path path, float s)
                        : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);
 }
 
+// An object that the ray meets before the length `far`: those steps may have gone past it. The picture is looked at
+// every BETWEEN_PX along the path.
+float nearer_meeting(Point point, Path path, float far)
+{
+    const float shift = distance(pixel_of(on_path(point, path, far)), PIXEL_HERE);
+    const int steps = int(min(shift / BETWEEN_PX, float(STEPS)));
+    for (int i = 1; i < steps; i++) {
+        const float s = far * float(i) / float(steps);
+        float met = next_length(point, path, s);
+        if (met > (1.0 - SAME) * s)
+            continue; // the ray is not behind what is seen there
+        for (int k = 0; k < 4; k++) {
+            const float next = next_length(point, path, met);
+            if (abs(next - met) <= (k < 3 ? CLOSE : SAME) * met)
+                return met;
+            met = next;
+        }
+    }
+    return far;
+}
+
 // Where the ray meets the scene, as a length along the path: exact for a flat bottom, and on other scenes each step
 // comes nearer. Where the ray passes behind the edge of an object there is no such length: the picture shows the
 // background where the ray is before the edge, and the object where it is behind. The ray then sees what the picture
 // shows just before the edge.
-float meeting(Point point, Path path)
+float last_meeting(Point point, Path path)
 {
     float s = 0.0, next = 0.0, before = 0.0, behind = 1e30;
     for (int i = 0; i < STEPS; i++) {
@@ -90,6 +112,8 @@ float meeting(Point point, Path path)
     }
     return abs(next - s) > SAME * max(next, s) ? before : s;
 }
+
+float meeting(Point point, Path path) { return nearer_meeting(point, path, last_meeting(point, path)); }
 
 // Whether the edge of an object runs between the four texels around a position in the picture. Their mean would show
 // the object beside itself, as a thin line.
