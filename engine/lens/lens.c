@@ -108,9 +108,10 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE | VIRGA_USE_UNIFORM, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL, .per_view = true},
-    {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
+    {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_lens_tile_gpu), .count = COUNT_TILES,
+     .first = VIRGA_FIRST_FILL, .scratch = true},
     {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_LISTS * sizeof(virga_lens_list_gpu),
-     .entry = VIRGA_LENS_TILE_KINDS * sizeof(uint32_t), .count = COUNT_TILES},
+     .entry = VIRGA_LENS_TILE_LISTS * sizeof(uint32_t), .count = COUNT_TILES},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };
 
@@ -184,7 +185,7 @@ static const virga_effect_layout layouts[] = {
 static const virga_effect_pass passes[] = {
     PASS(focus),
     {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV_ROW(lens_aperture_comp)},
-    PASS(sample, .forms = 2),
+    PASS(sample, .forms = LENS_SAMPLES),
     PASS(tile, .forms = VIRGA_LENS_LAYERS + 1),
     PASS(reach),
     {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},

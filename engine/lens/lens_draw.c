@@ -210,6 +210,9 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
     bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
         lens->def.circles ? out : in_general(lens->blocks, context->nearest);
+    if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
+        bound[LENS_BIND_FOCUS] =
+            (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};
     bound[LENS_BIND_ON_SCENE] = virga_bound_or_blank(NULL, lens->blank_color, context->nearest);
     for (uint32_t i = 0; i < VIRGA_LENS_LAYERS; i++) {
         const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
@@ -277,7 +280,7 @@ static void record_gather(virga_lens *lens, VkCommandBuffer cmd, const virga_len
         return;
     }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.gather");
-    for (; kind < VIRGA_LENS_TILE_KINDS; kind++) {
+    for (; kind < VIRGA_LENS_TILES_SHARP; kind++) {
         context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof kind, &kind);
         over_list(lens, cmd, lens->gather[form | (kind == VIRGA_LENS_TILES_BLURRED ? 0 : VIRGA_LENS_NO_NEAR)], kind,
                   offsetof(virga_lens_list_gpu, gather_x));
@@ -303,6 +306,21 @@ static void record_combine(virga_lens *lens, VkCommandBuffer cmd, const virga_le
     virga_pass_end(context, cmd, scope);
 }
 
+/* The scene as samples: of all tiles, or at half resolution of those whose samples are read. */
+static void record_sample(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t form = (is_linear(view) ? VIRGA_LENS_LINEAR : 0) | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0);
+    if (!lens->def.half_resolution) {
+        over(lens, cmd, "lens.sample", lens->sample[form], view->columns, view->rows);
+        return;
+    }
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.sample");
+    over_list(lens, cmd, lens->sample[form], VIRGA_LENS_TILES_SAMPLED, offsetof(virga_lens_list_gpu, gather_x));
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
 /* Blocks of all levels and kinds, of the scene or of a layer. */
 static void record_blocks(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t form,
                           uint32_t layer)
@@ -312,7 +330,7 @@ static void record_blocks(virga_lens *lens, VkCommandBuffer cmd, const virga_len
         return;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.blocks");
     context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof layer, &layer);
-    over_list(lens, cmd, lens->block[form], VIRGA_LENS_TILE_KINDS, offsetof(virga_lens_list_gpu, gather_x));
+    over_list(lens, cmd, lens->block[form], VIRGA_LENS_LIST_OF_BLOCKS, offsetof(virga_lens_list_gpu, gather_x));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -337,14 +355,14 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     virga_context *context = lens->base.context;
     const uint32_t shaped = view->blades > 0 || view->cats_eye > 0 ? VIRGA_LENS_SHAPED : 0;
     const uint32_t radius = view->levels ? VIRGA_LENS_MAX_RADIUS : (uint32_t)ceilf(view->max_radius) + 1;
-    over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE,
-         VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0));
-    over(lens, cmd, "lens.sample", lens->sample[is_linear(view)], view->columns, view->rows);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
+    virga_dispatch_2d(context, cmd, lens->aperture_reach, virga_groups_of(VIRGA_LENS_APERTURE, GROUP),
+                      virga_groups_of(VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0), GROUP));
     virga_dispatch_2d(context, cmd, lens->tile[depth_layers(view)], view->tile_columns, view->tile_rows);
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
+    record_sample(lens, cmd, view);
     record_blocks(lens, cmd, view, view->on_scene ? VIRGA_LENS_BLOCKS_ON_SCENE : VIRGA_LENS_BLOCKS_SCENE, 0);
     record_gather(lens, cmd, view, shaped | (view->on_scene ? VIRGA_LENS_ON_SCENE : 0));
     record_layers(lens, cmd, view, shaped);
@@ -361,6 +379,17 @@ static void record_circles(virga_lens *lens, VkCommandBuffer cmd, const virga_le
 {
     for (uint32_t part = 0; part <= view->layers; part++)
         over(lens, cmd, "lens.circles", lens->circle[part], view->width, view->height);
+}
+
+/* Passes wait for it only if they use what it computes: a focus that follows the picture. */
+static void record_focus(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    virga_context *context = lens->base.context;
+    virga_dispatch(context, cmd, lens->focus, 1);
+    if (view->follow)
+        virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                      READ_WRITE | VK_ACCESS_UNIFORM_READ_BIT);
 }
 
 virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
@@ -390,12 +419,7 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
     virga_effect_begin_step(&lens->base, cmd);
     virga_effect_first_contents(&lens->base, cmd);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &offset);
-    virga_dispatch(context, cmd, lens->focus, 1);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
-                      VK_ACCESS_TRANSFER_READ_BIT);
+    record_focus(lens, cmd, &filled);
     if (lens->def.circles)
         record_circles(lens, cmd, &filled);
     else if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)

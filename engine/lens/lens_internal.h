@@ -33,6 +33,7 @@ enum {
 
 /* Pipelines of passes. */
 enum {
+    LENS_SAMPLES = 4,     /* by VIRGA_LENS_LINEAR and _ON_SCENE */
     LENS_GATHERS = 8,     /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
     LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
 };
@@ -59,7 +60,7 @@ struct virga_lens {
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
-    virga_pipeline *focus, *aperture_reach, *sample[2], *tile[VIRGA_LENS_LAYERS + 1], *reach,
+    virga_pipeline *focus, *aperture_reach, *sample[LENS_SAMPLES], *tile[VIRGA_LENS_LAYERS + 1], *reach,
         *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *layer_sample[VIRGA_LENS_LAYERS],
         *layer[LENS_LAYER_FORMS], *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)],
         *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];

@@ -20,7 +20,7 @@ layout(push_constant) uniform Which { uint layer; };
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D samples;
 layout(set = 0, binding = 25) uniform sampler2D spreads;
-layout(std430, set = 0, binding = 9) readonly buffer Tiles { vec4 tiles[]; };
+layout(scalar, set = 0, binding = 9) readonly buffer Tiles { virga_lens_tile_gpu tiles[]; };
 layout(set = 0, binding = 31, rgba32ui) uniform writeonly uimage2DArray blocks;
 
 uint bits_of(uint kind, uint level)
@@ -137,8 +137,7 @@ void main()
         return;
     const int side = 1 << level;
     const ivec2 first = index * side;
-    const ivec2 tile = inside(first) / VIRGA_LENS_TILE;
-    const uint tile_levels = uint(tiles[tile.y * int(view.tile_columns) + tile.x].a);
+    const uint tile_levels = tiles[tile_of(inside(first))].levels;
     const bool here = kind == VIRGA_LENS_BLOCKS_ALL || (tile_levels & bits_of(kind, level)) != 0u ||
                       (LAYER && view.layer_inv_m[layer] > 0.0);
     const moments nothing = moments(0.0, vec2(0.0), 0.0);

@@ -1,13 +1,11 @@
 // focus.comp - the focus of this view: as set, or eased towards what is at the focus point. It is eased in 1/m, in
-// which the blur is linear. It also empties the lists of tiles.
-// One invocation. Reads: depth. Writes: state, lists.
+// which the blur is linear.
+// One invocation. Reads: depth. Writes: state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define STATE_WRITTEN
 #include "lens.glsl"
-#define LISTS_ACCESS
-#include "lists.glsl"
 
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 1) buffer State { virga_lens_state_gpu state; };
@@ -22,12 +20,4 @@ void main()
         next = mix(state.focus_inv_m, next, view.ease);
     state.focus_inv_m = next;
     state.focused = 1u;
-    const virga_lens_list_gpu none = virga_lens_list_gpu(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
-    lists[VIRGA_LENS_TILE_KINDS] = none;
-    if (!HALVED)
-        lists[0] = none;
-    if (HALVED)
-        for (uint kind = 0u; kind < VIRGA_LENS_TILE_KINDS; kind++)
-            lists[kind] = virga_lens_list_gpu(TILE_GROUPS * TILE_GROUPS, 0u, 0u, 4u * TILE_GROUPS * TILE_GROUPS, 0u, 0u,
-                                              0u, 0u);
 }

@@ -232,8 +232,7 @@ void main()
     const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
     if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
-    const ivec2 tile = texel / VIRGA_LENS_TILE;
-    const vec4 reach = reaches[tile.y * int(view.tile_columns) + tile.x];
+    const vec4 reach = reaches[tile_of(texel)];
     const vec4 own = texelFetch(samples, texel, 0);
     if (max(reach.x, reach.y) <= POINT) {
         store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));

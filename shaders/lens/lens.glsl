@@ -29,10 +29,13 @@ layout(scalar, set = 0, binding = 29) uniform State { virga_lens_state_gpu state
 float inverse_depth(float stored) { return max((view.depth_a + stored) / view.depth_b, 0.0); }
 
 #ifndef STATE_WRITTEN
+// 1/m. Only a focus that follows what is in the picture has to be computed first, see focus.comp.
+float focus_inv_m() { return view.follow != 0u ? state.focus_inv_m : view.focus_inv_m; }
+
 // The signed radius of the circle of confusion, in texels of the work image.
 float circle(float inv_m)
 {
-    const float r = view.circle_px_m * (state.focus_inv_m - inv_m) / float(STEP);
+    const float r = view.circle_px_m * (focus_inv_m() - inv_m) / float(STEP);
     return clamp(r, -view.max_radius, view.max_radius);
 }
 #endif

@@ -1,5 +1,6 @@
-// lists.glsl - (half resolution) lists of tiles by what reaches them, so that passes do for each tile only what it
-// needs. The order in a list depends on the device, but each tile writes texels of its own, so no result does.
+// lists.glsl - tiles of the work image, and (half resolution) lists of them by what reaches them, so that passes do for
+// each tile only what it needs. The order in a list depends on the device, but each tile writes texels of its own, so
+// no result does.
 #ifndef LISTS_ACCESS
 #define LISTS_ACCESS readonly
 #endif
@@ -10,6 +11,18 @@ layout(std430, set = 0, binding = 28) LISTS_ACCESS buffer Lists
 };
 
 const uint TILE_GROUPS = VIRGA_LENS_TILE / 8u; // workgroups of 8 x 8 texels along a tile's side
+
+// The index of the tile that a texel is in.
+uint tile_of(ivec2 texel)
+{
+    const uvec2 tile = uvec2(texel) / VIRGA_LENS_TILE;
+    return tile.y * view.tile_columns + tile.x;
+}
+
+// (half resolution) Whether nothing of the fields is seen in a tile, by the largest circles of confusion in front of
+// the focus and behind it that reach it: they are below half a pixel, see compose.glsl.
+#define SHARP_REACH 0.25 // texels
+bool is_sharp(vec2 reach) { return max(reach.x, reach.y) <= SHARP_REACH; }
 
 // The first texel or pixel of a workgroup of 8 x 8, in a pass over one list; `across`: such workgroups along a tile's
 // side. Negative where the last row of workgroups is longer than the list.

@@ -53,9 +53,9 @@ row row_at(uint of, int y)
 // Which blur a view depth has, by its difference to the depth at focus (equation 2): 0, 1 or 2.
 uint blur_at(float inv_m)
 {
-    if (inv_m == state.focus_inv_m)
+    if (inv_m == focus_inv_m())
         return 0u;
-    const float difference = abs(1.0 / inv_m - 1.0 / state.focus_inv_m); // infinity minus a number is infinity
+    const float difference = abs(1.0 / inv_m - 1.0 / focus_inv_m()); // infinity minus a number is infinity
     return difference <= view.threshold_m[0] ? 0u : difference <= view.threshold_m[1] ? 1u : 2u;
 }
 

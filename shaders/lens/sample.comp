@@ -2,47 +2,56 @@
 // a texel is the mean of those of its pixels that are about as near as the nearest one: a mean over an edge would be a
 // color that is nowhere, at a depth that is nowhere. In front of the focus it spreads as much light as it has such
 // pixels.
-// One invocation per texel. Reads: color, depth, state. Writes: samples, spreads.
+//
+// At half resolution it works on the list of tiles whose samples are read. Those of them that nothing reaches are in
+// focus, and lie beside others, which read their fields.
+// One invocation per texel. Reads: color, depth, state, reaches, lists, that layer. Writes: samples, spreads, fields.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "lens.glsl"
 #include "pixels.glsl"
-#define SCENE_LINEAR (OWN_FORM == 1u)
+#define SCENE_LINEAR ((OWN_FORM & VIRGA_LENS_LINEAR) != 0u)
 #include "scene_color.glsl"
 #include "spread.glsl"
+#include "texels.glsl"
+#include "lists.glsl"
+#include "on_scene.glsl"
+
+const bool ON_SCENE = (OWN_FORM & VIRGA_LENS_ON_SCENE) != 0u; // a layer lies on the scene
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D samples;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D spreads;
+layout(std430, set = 0, binding = 10) readonly buffer Reaches { vec4 reaches[]; };
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 
-float circle_at(ivec2 pixel)
+void store_sharp(ivec2 texel, vec3 color)
 {
-    return view.depth_given != 0u ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) : 0.0;
+    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), vec4(color, 0.0));
+    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+    if (ON_SCENE)
+        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on_scene_mean(texel));
 }
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= int(view.columns) || texel.y >= int(view.rows))
+    const ivec2 first = HALVED ? listed_first(VIRGA_LENS_TILES_SAMPLED, TILE_GROUPS) : ivec2(gl_WorkGroupID.xy) * 8;
+    const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
+    if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
-    const uint pixels = STEP * STEP;
-    float radii[4], nearest = 1e9;
-    for (uint i = 0u; i < pixels; i++) {
-        radii[i] = circle_at(pixel_of(texel, i));
-        nearest = min(nearest, radii[i]);
+    const texel_circles circles = circles_of(texel);
+    vec3 sum = vec3(0.0);
+    float before_focus = 0.0;
+    for (uint i = 0u; i < PIXELS; i++) {
+        sum += circles.weights[i] * scene_color(pixel_of(texel, i));
+        before_focus += circles.of_pixels[i] < -POINT ? 1.0 : 0.0;
     }
-    vec4 sum = vec4(0.0);
-    float radius = 0.0, before_focus = 0.0;
-    for (uint i = 0u; i < pixels; i++) {
-        const float weight = max(1.0 - (radii[i] - nearest) / max(abs(nearest), 1.0), 0.0);
-        sum += weight * vec4(scene_color(pixel_of(texel, i)), 1.0);
-        radius += weight * radii[i];
-        before_focus += radii[i] < -POINT ? 1.0 : 0.0;
-    }
-    radius /= sum.a;
-    const float share = HALVED && radius < -POINT ? before_focus / float(pixels) : 1.0;
-    imageStore(samples, texel, vec4(sum.rgb / sum.a, radius));
+    const float radius = circles.radius;
+    const float share = HALVED && radius < -POINT ? before_focus / float(PIXELS) : 1.0;
+    const vec3 color = sum / circles.weight;
+    imageStore(samples, texel, vec4(color, radius));
     imageStore(spreads, texel, vec4(share * spread(radius), radius, 0.0, 0.0));
+    if (HALVED && is_sharp(reaches[tile_of(texel)].xy))
+        store_sharp(texel, color);
 }

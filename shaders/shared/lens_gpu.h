@@ -9,6 +9,7 @@
 typedef struct virga_lens_gpu virga_lens_gpu;
 typedef struct virga_lens_state_gpu virga_lens_state_gpu;
 typedef struct virga_lens_list_gpu virga_lens_list_gpu;
+typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #endif
 
 #define VIRGA_LENS_TILE       16  /* pixels of the work image along a tile's side */
@@ -45,17 +46,27 @@ typedef struct virga_lens_list_gpu virga_lens_list_gpu;
 /* What a pass is specialised for: bits of its specialisation constant; the low ones are of the pass itself. */
 #define VIRGA_LENS_HALVED   256 /* half resolution */
 #define VIRGA_LENS_SHAPED   1   /* gather, layer: an aperture that is no disc, or cat's eye */
-#define VIRGA_LENS_ON_SCENE 2   /* gather: a layer lies on the scene */
+#define VIRGA_LENS_ON_SCENE 2   /* sample, gather: a layer lies on the scene */
 #define VIRGA_LENS_DEPTHS   2   /* layer: it has a depth image */
 #define VIRGA_LENS_NO_NEAR  4   /* gather: nothing in front of the focus is out of focus */
+#define VIRGA_LENS_LINEAR   1   /* sample: the host's picture is linear light */
 
-/* (half resolution) Tiles by what reaches them; there is a list of each kind. */
+/* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
+ * read. */
 #define VIRGA_LENS_TILES_BLURRED 0 /* circles of confusion from in front of the focus, and perhaps from behind it */
 #define VIRGA_LENS_TILES_FAR     1 /* only from behind it */
 #define VIRGA_LENS_TILES_SHARP   2 /* none */
 #define VIRGA_LENS_TILE_KINDS    3
-#define VIRGA_LENS_LISTS         4     /* heads of lists: the last one has the workgroups of blocks, and no tiles */
-#define VIRGA_LENS_LIST_ROW      32768 /* tiles in a row of workgroups; a device has 65535 in one */
+#define VIRGA_LENS_TILES_SAMPLED 3
+#define VIRGA_LENS_TILE_LISTS    4
+
+/* Heads of lists: the last one has the workgroups of blocks, and no tiles. */
+#define VIRGA_LENS_LIST_OF_BLOCKS 4
+#define VIRGA_LENS_LISTS          5
+#define VIRGA_LENS_LIST_ROW       32768 /* tiles in a row of workgroups; a device has 65535 in one */
+
+/* A bit beside those of levels, in what tiles tell each other: samples of this tile are read. */
+#define VIRGA_LENS_SAMPLED 65536u
 
 /* What the combine pass is specialised for besides the number of layers: times VIRGA_LENS_LAYERS + 1. The first three
  * are kinds of tiles. */
@@ -113,6 +124,16 @@ struct virga_lens_state_gpu {
     uint focused;      /* there was a view */
 };
 
+/* A tile, and what the tiles around it tell it in this view: see shaders/lens/tile.comp. All but the first word is 0
+ * between views. */
+struct virga_lens_tile_gpu {
+    uint levels; /* of blocks that have light of its own */
+    uint near;   /* bits of a float (texels), the largest radius in front of the focus that reaches it */
+    uint far;    /* the same behind the focus */
+    uint layers; /* and of layers with depths */
+    uint told;   /* levels of blocks that reach it, and VIRGA_LENS_SAMPLED */
+};
+
 /* A list of tiles: its head. The tiles of all lists come after the heads, as many for each list as there are tiles. */
 struct virga_lens_list_gpu {
     uint gather_x;  /* workgroups of gather: in a tile */
@@ -126,6 +147,7 @@ struct virga_lens_list_gpu {
 };
 
 #ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_lens_tile_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_lens_gpu, 164 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);

@@ -57,6 +57,43 @@ static void a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_i
     lens_fixture_close(&f);
 }
 
+/* A gray wall in focus, and a lamp before it and one behind it whose discs have these radii (px). */
+static void run_lamps_alone(lens_fixture *f, double near_px, double far_px)
+{
+    lens_paint_all(&f->scene, 0.25f, 1);
+    for (uint32_t i = 0; i < 64; i++) {
+        lens_paint(&f->scene, 70 + i % 8, 90 + i / 8, 20, 1 / (1 + near_px / 10));
+        if (far_px > 0)
+            lens_paint(&f->scene, 200 + i % 8, 90 + i / 8, 20, 1 / (1 - far_px / 10));
+    }
+    lens_fixture_run(f);
+}
+
+/* Only tiles that are read are sampled. A picture before it, of which all was bright and out of focus, changes nothing
+ * in one of which little is. */
+static void nothing_is_left_of_the_picture_before(void **state)
+{
+    (void)state;
+    static const double radii[4][2] = {{3, 0}, {9, 9.5}, {34, 9}, {90, 9.9}};
+    for (int i = 0; i < 4; i++) {
+        static float alone[4 * 320 * 192];
+        for (int after = 0; after < 2; after++) {
+            lens_fixture f;
+            lens_fixture_open(&f, 320, 192, true);
+            f.settings.max_radius_px = 120;
+            if (after) {
+                lens_paint_all(&f.scene, 60000, 0.5);
+                lens_fixture_run(&f);
+            }
+            run_lamps_alone(&f, radii[i][0], radii[i][1]);
+            if (after)
+                assert_memory_equal(f.result, alone, sizeof alone);
+            memcpy(alone, f.result, sizeof alone);
+            lens_fixture_close(&f);
+        }
+    }
+}
+
 /* Through a pole in focus, as it goes out of focus, the sky beside it does not jump. */
 static void an_edge_does_not_jump_as_the_focus_moves(void **state)
 {
@@ -82,6 +119,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_that_are_sharp_far_and_near_are_beside_each_other),
         cmocka_unit_test(a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_it),
+        cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(an_edge_does_not_jump_as_the_focus_moves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

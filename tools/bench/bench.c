@@ -19,6 +19,7 @@ virga_context_def bench_context_def(const bench *b)
     def.variants = b->variants;
     if (b->model) {
         def.get_instance_proc_addr = counting_get;
+        def.timings = false; /* on software Vulkan they come with barriers of their own, which no card has */
         def.variants = b->variants ? b->variants : VIRGA_VARIANTS_GPU;
     }
     return def;
@@ -156,6 +157,14 @@ bool bench_begin(bench *b, VkCommandBuffer *cmd)
     if (b->model)
         counting_end_frame();
     return virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
+}
+
+void bench_forget_model(const bench *b)
+{
+    if (!b->model)
+        return;
+    counting_end_frame();
+    counting_forget();
 }
 
 double bench_print_model(const bench *b)

@@ -51,6 +51,9 @@ double bench_pass_ms(const bench *b, const char *name);
  * draws: there it is what the frame's timed passes leave. */
 double bench_draw_ms(const bench *b, const char *name, double frame_ms);
 
+/* With a model: forgets the passes so far, e.g. those of a first frame. */
+void bench_forget_model(const bench *b);
+
 /* With a model: the modelled times of the passes since the last call, each in its newest frame. Returns
  * their sum in milliseconds. Else nothing, and 0. */
 double bench_print_model(const bench *b);

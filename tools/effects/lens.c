@@ -78,6 +78,7 @@ static void print(const scene_file *scene)
 
 /* ---- virga bench ---------------------------------------------------------------------------------------------- */
 
+#define FOCUS_M  0.3f
 #define DROPS    1000 /* on the layer, as in the paper's picture */
 #define RUNS     41   /* of a case: a small picture takes as long as a wake of a thread may */
 #define ENOUGH_S 6.0  /* fewer runs are enough after it */
@@ -87,19 +88,29 @@ typedef struct lens_case {
     virga_lens_style style;
     uint32_t half_resolution;
     double radius_share; /* largest circle of confusion, as a share of the picture's height; 0: everything is sharp */
+    uint32_t blurred;    /* index into `shares` */
 } lens_case;
 
+/* How much of the picture is out of focus, from above. The rest is as far away as the focus. */
+static const double shares[] = {1, 1.0 / 3, 0.1};
+#define SHARES (sizeof shares / sizeof *shares)
+
 static const lens_case cases[] = {
-    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02},          {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0},
-    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01},   {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02},
-    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0}, {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01},
+    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0},
+    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0},
+    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2},
+    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1},
+    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0},
+    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0},
+    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0},
+    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0},
 };
 
 static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
 
 /* What a lens reads: a street of lamps, and drops on a pane before it. */
 typedef struct pictures {
-    host_image color, depth, layer;
+    host_image color, depths[SHARES], layer; /* depths: by the share that is out of focus */
     uint32_t width, height;
 } pictures;
 
@@ -149,8 +160,12 @@ static bool open_pictures(bench *b, pictures *p)
     bool good = color && depth && layer;
     if (good) {
         paint(color, depth, layer, p->width, p->height);
-        good =
-            upload(b, color, 4, p, &p->color) && upload(b, depth, 1, p, &p->depth) && upload(b, layer, 4, p, &p->layer);
+        good = upload(b, color, 4, p, &p->color) && upload(b, layer, 4, p, &p->layer);
+    }
+    for (size_t i = 0; i < SHARES && good; i++) {
+        for (size_t k = (size_t)(shares[i] * p->height) * p->width; k < pixels; k++)
+            depth[k] = 1 / FOCUS_M;
+        good = upload(b, depth, 1, p, &p->depths[i]);
     }
     free(color);
     free(depth);
@@ -161,7 +176,8 @@ static bool open_pictures(bench *b, pictures *p)
 static void close_pictures(bench *b, pictures *p)
 {
     host_image_destroy(&b->device, &p->color);
-    host_image_destroy(&b->device, &p->depth);
+    for (size_t i = 0; i < SHARES; i++)
+        host_image_destroy(&b->device, &p->depths[i]);
     host_image_destroy(&b->device, &p->layer);
 }
 
@@ -174,7 +190,7 @@ static virga_image sampled(const host_image *image)
 }
 
 /* The depth buffer is reversed and has no far plane, so that it stores 1 / view depth. */
-static virga_view view_of(const pictures *p)
+static virga_view view_of(const pictures *p, uint32_t blurred)
 {
     virga_view view = virga_default_view();
     memset(view.clip_from_view, 0, sizeof view.clip_from_view);
@@ -187,7 +203,7 @@ static virga_view view_of(const pictures *p)
     view.viewport[2] = (float)p->width;
     view.viewport[3] = (float)p->height;
     view.color = sampled(&p->color);
-    view.depth = sampled(&p->depth);
+    view.depth = sampled(&p->depths[blurred]);
     return view;
 }
 
@@ -206,11 +222,11 @@ static double worked_ms(void)
 }
 
 /* Times of a submission, with or without a prepare. */
-static bool time_frame(bench *b, virga_lens *lens, const pictures *p, frame_times *times, size_t run)
+static bool time_frame(bench *b, virga_lens *lens, const pictures *p, uint32_t blurred, frame_times *times, size_t run)
 {
     VkCommandBuffer cmd;
-    const virga_view view = view_of(p);
-    const virga_lens_layer layer = {.color = sampled(&p->layer), .depth_m = 0.3f};
+    const virga_view view = view_of(p, blurred);
+    const virga_lens_layer layer = {.color = sampled(&p->layer), .depth_m = FOCUS_M};
     if (!bench_begin(b, &cmd))
         return false;
     if (lens && virga_lens_prepare(lens, cmd, &view, &layer, 1, 0) != VIRGA_OK)
@@ -227,7 +243,7 @@ static virga_lens_settings settings_of(const lens_case *row, const pictures *p)
     virga_lens_settings settings = virga_default_lens_settings();
     const double pixels = p->height, radius_px = row->radius_share * p->height;
     settings.style = row->style;
-    settings.focus_m = 0.3f;
+    settings.focus_m = FOCUS_M;
     settings.max_radius_px = row->half_resolution ? 126 : 63;
     /* r = A p / 2 (1 / s), A = focal / f-number, p = half the height times the cotangent, 2 */
     settings.aperture_f =
@@ -319,11 +335,12 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     def.half_resolution = row->half_resolution;
     const virga_lens_settings settings = settings_of(row, p);
     bool good = virga_lens_create(b->context, &def, &lens) == VIRGA_OK && virga_lens_set(lens, &settings) >= VIRGA_OK &&
-                time_frame(b, lens, p, &times, 0);
+                time_frame(b, lens, p, row->blurred, &times, 0);
+    bench_forget_model(b);
     const double start = progress_now();
     size_t runs = 0;
     while (good && runs < RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
-        good = time_frame(b, NULL, p, &empty, runs) && time_frame(b, lens, p, &times, runs);
+        good = time_frame(b, NULL, p, row->blurred, &empty, runs) && time_frame(b, lens, p, row->blurred, &times, runs);
         for (size_t i = 0; i < PASSES; i++) {
             char name[32];
             snprintf(name, sizeof name, "lens.%s", pass_names[i]);
