@@ -262,12 +262,10 @@ static uint32_t depth_layers(const virga_lens_gpu *view)
     return layers;
 }
 
-/* A pass over one list of tiles; `first`: of its numbers of workgroups in the list's head. */
-static void over_list(virga_lens *lens, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t kind,
-                      size_t first)
+/* A pass over one list of tiles. */
+static void over_list(virga_lens *lens, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t kind)
 {
-    virga_dispatch_indirect(lens->base.context, cmd, pipeline, lens->lists->buffer,
-                            kind * sizeof(virga_lens_list_gpu) + first);
+    virga_dispatch_indirect(lens->base.context, cmd, pipeline, lens->lists->buffer, kind * sizeof(virga_lens_list_gpu));
 }
 
 static void record_gather(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t form)
@@ -282,8 +280,7 @@ static void record_gather(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.gather");
     for (; kind < VIRGA_LENS_TILES_SHARP; kind++) {
         context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof kind, &kind);
-        over_list(lens, cmd, lens->gather[form | (kind == VIRGA_LENS_TILES_BLURRED ? 0 : VIRGA_LENS_NO_NEAR)], kind,
-                  offsetof(virga_lens_list_gpu, gather_x));
+        over_list(lens, cmd, lens->gather[form | (kind == VIRGA_LENS_TILES_BLURRED ? 0 : VIRGA_LENS_NO_NEAR)], kind);
     }
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
@@ -293,15 +290,15 @@ static void record_combine(virga_lens *lens, VkCommandBuffer cmd, const virga_le
 {
     virga_context *context = lens->base.context;
     const uint32_t forms = VIRGA_LENS_LAYERS + 1;
+    const uint32_t linear = is_linear(view) ? VIRGA_LENS_COMBINE_KINDS * forms : 0;
     if (!lens->def.half_resolution || view->all_sharp) {
         const uint32_t kind = view->all_sharp ? VIRGA_LENS_ALL_SHARP : VIRGA_LENS_TILES_BLURRED;
-        over(lens, cmd, "lens.combine", lens->combine[kind * forms + view->layers], view->width, view->height);
+        over(lens, cmd, "lens.combine", lens->combine[linear + kind * forms + view->layers], view->width, view->height);
         return;
     }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.combine");
     for (uint32_t kind = 0; kind < VIRGA_LENS_TILE_KINDS; kind++)
-        over_list(lens, cmd, lens->combine[kind * forms + view->layers], kind,
-                  offsetof(virga_lens_list_gpu, combine_x));
+        over_list(lens, cmd, lens->combine[linear + kind * forms + view->layers], kind);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -316,7 +313,7 @@ static void record_sample(virga_lens *lens, VkCommandBuffer cmd, const virga_len
         return;
     }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.sample");
-    over_list(lens, cmd, lens->sample[form], VIRGA_LENS_TILES_SAMPLED, offsetof(virga_lens_list_gpu, gather_x));
+    over_list(lens, cmd, lens->sample[form], VIRGA_LENS_TILES_SAMPLED);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -330,7 +327,7 @@ static void record_blocks(virga_lens *lens, VkCommandBuffer cmd, const virga_len
         return;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.blocks");
     context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof layer, &layer);
-    over_list(lens, cmd, lens->block[form], VIRGA_LENS_LIST_OF_BLOCKS, offsetof(virga_lens_list_gpu, gather_x));
+    over_list(lens, cmd, lens->block[form], VIRGA_LENS_LIST_OF_BLOCKS);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }

@@ -9,13 +9,11 @@ layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
 
 ivec2 pixel;  // in the target
-ivec2 texel; // of the work image
 vec2 sampled; // texture coordinates in the fields
 
 void look_at(uvec2 at)
 {
     pixel = ivec2(view.left + at.x, view.top + at.y);
-    texel = ivec2(at / STEP);
     sampled = (vec2(at) + 0.5) / float(STEP) / vec2(textureSize(fields, 0).xy);
 }
 
@@ -26,14 +24,14 @@ float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius
 vec4 field(uint which)
 {
     if (!HALVED)
-        return texelFetch(fields, ivec3(texel, which), 0);
+        return texelFetch(fields, ivec3(pixel - ivec2(view.left, view.top), which), 0);
     return textureLod(fields, vec3(sampled, which), 0.0);
 }
 
 vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 
-// The scene without layers. `near_px` is the signed circle of confusion of what is in `near`.
-void scene_at(out vec4 near, out vec4 far, out float near_px)
+// The scene without layers, from its fields. `near_px` is the signed circle of confusion of what is in `near`.
+void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float near_px)
 {
     const vec4 sharp = vec4(scene_color(pixel), 1.0);
     near = vec4(0.0);
@@ -43,9 +41,8 @@ void scene_at(out vec4 near, out vec4 far, out float near_px)
         return;
     const float radius = view.depth_given != 0u
                              ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP) : 0.0;
-    const vec4 behind = field(VIRGA_LENS_FAR);
     if (!NO_NEAR) {
-        near = field(VIRGA_LENS_NEAR);
+        near = before;
         near_px = behind.a * float(STEP);
     }
     far = vec4(behind.rgb, 1.0);
@@ -53,6 +50,11 @@ void scene_at(out vec4 near, out vec4 far, out float near_px)
         far = mix(sharp, far, blurriness(radius));
     else
         near = mix(sharp, near, blurriness(radius));
+}
+
+void scene_at(out vec4 near, out vec4 far, out float near_px)
+{
+    scene_of(field(VIRGA_LENS_FAR), field(VIRGA_LENS_NEAR), near, far, near_px);
 }
 
 // A layer's circle of confusion at this pixel, in px.

@@ -228,7 +228,7 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 
 void main()
 {
-    const ivec2 first = HALVED ? listed_first(kind, TILE_GROUPS) : ivec2(gl_WorkGroupID.xy) * 8;
+    const ivec2 first = HALVED ? listed_first(kind) : ivec2(gl_WorkGroupID.xy) * 8;
     const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
     if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;

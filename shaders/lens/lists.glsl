@@ -24,14 +24,17 @@ uint tile_of(ivec2 texel)
 #define SHARP_REACH 0.25 // texels
 bool is_sharp(vec2 reach) { return max(reach.x, reach.y) <= SHARP_REACH; }
 
-// The first texel or pixel of a workgroup of 8 x 8, in a pass over one list; `across`: such workgroups along a tile's
-// side. Negative where the last row of workgroups is longer than the list.
-ivec2 listed_first(uint kind, uint across)
+// An entry of a list: column and row of the tile. Each lane would divide an index.
+uint entry_of(uvec2 tile) { return tile.x | tile.y << 16; }
+
+// The first texel of a workgroup of 8 x 8, in a pass over one list. Negative where the last row of workgroups is longer
+// than the list.
+ivec2 listed_first(uint kind)
 {
     const uint entry = gl_WorkGroupID.z * VIRGA_LENS_LIST_ROW + gl_WorkGroupID.y;
     if (entry >= lists[kind].count)
         return ivec2(-1);
     const uint tile = listed[kind * view.tile_columns * view.tile_rows + entry];
-    const uvec2 at = uvec2(tile % view.tile_columns, tile / view.tile_columns) * across;
-    return ivec2(at + uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across)) * 8;
+    const uvec2 at = uvec2(tile & 0xFFFFu, tile >> 16) * TILE_GROUPS;
+    return ivec2(at + uvec2(gl_WorkGroupID.x & (TILE_GROUPS - 1u), gl_WorkGroupID.x / TILE_GROUPS)) * 8;
 }

@@ -27,11 +27,10 @@ void add_to_list(uint kind, uint tile)
 {
     const uint entry = atomicAdd(lists[kind].count, 1u);
     const uint columns = min(entry + 1u, VIRGA_LENS_LIST_ROW), rows = entry / VIRGA_LENS_LIST_ROW + 1u;
-    listed[kind * view.tile_columns * view.tile_rows + entry] = tile;
-    atomicMax(lists[kind].gather_y, columns);
-    atomicMax(lists[kind].gather_z, rows);
-    atomicMax(lists[kind].combine_y, columns);
-    atomicMax(lists[kind].combine_z, rows);
+    listed[kind * view.tile_columns * view.tile_rows + entry] =
+        entry_of(uvec2(tile % view.tile_columns, tile / view.tile_columns));
+    atomicMax(lists[kind].groups_y, columns);
+    atomicMax(lists[kind].groups_z, rows);
 }
 
 // Whether a layer that is all at one depth needs blocks.
@@ -46,9 +45,9 @@ bool plane_needs_blocks()
 void need_blocks()
 {
     const ivec2 groups = ivec2(max(level_size(1u).x, level_size(2u).x + level_size(3u).x), blocks_rows()) / 8;
-    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].gather_x, uint(groups.x));
-    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].gather_y, VIRGA_LENS_BLOCK_KINDS * uint(groups.y));
-    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].gather_z, 1u);
+    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].groups_x, uint(groups.x));
+    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].groups_y, VIRGA_LENS_BLOCK_KINDS * uint(groups.y));
+    atomicMax(lists[VIRGA_LENS_LIST_OF_BLOCKS].groups_z, 1u);
 }
 
 void main()

@@ -36,7 +36,7 @@ void store_sharp(ivec2 texel, vec3 color)
 
 void main()
 {
-    const ivec2 first = HALVED ? listed_first(VIRGA_LENS_TILES_SAMPLED, TILE_GROUPS) : ivec2(gl_WorkGroupID.xy) * 8;
+    const ivec2 first = HALVED ? listed_first(VIRGA_LENS_TILES_SAMPLED) : ivec2(gl_WorkGroupID.xy) * 8;
     const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
     if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;

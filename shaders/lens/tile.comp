@@ -124,8 +124,7 @@ void empty_lists()
 {
     for (uint i = 0u; i < VIRGA_LENS_LISTS; i++) {
         const bool has_tiles = HALVED && i != VIRGA_LENS_LIST_OF_BLOCKS;
-        lists[i] = virga_lens_list_gpu(has_tiles ? TILE_GROUPS * TILE_GROUPS : 0u, 0u, 0u,
-                                       has_tiles ? 4u * TILE_GROUPS * TILE_GROUPS : 0u, 0u, 0u, 0u, 0u);
+        lists[i] = virga_lens_list_gpu(has_tiles ? TILE_GROUPS * TILE_GROUPS : 0u, 0u, 0u, 0u, 0u);
     }
 }
 

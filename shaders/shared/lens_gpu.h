@@ -71,7 +71,8 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 /* What the combine pass is specialised for besides the number of layers: times VIRGA_LENS_LAYERS + 1. The first three
  * are kinds of tiles. */
 #define VIRGA_LENS_ALL_SHARP     3 /* no layer is out of focus either, and there are no fields */
-#define VIRGA_LENS_COMBINE_FORMS 4
+#define VIRGA_LENS_COMBINE_KINDS 4
+#define VIRGA_LENS_COMBINE_FORMS 8 /* from the fifth on the host's picture is linear light */
 
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
@@ -136,19 +137,16 @@ struct virga_lens_tile_gpu {
 
 /* A list of tiles: its head. The tiles of all lists come after the heads, as many for each list as there are tiles. */
 struct virga_lens_list_gpu {
-    uint gather_x;  /* workgroups of gather: in a tile */
-    uint gather_y;  /* tiles in a row */
-    uint gather_z;  /* rows */
-    uint combine_x; /* the same of combine */
-    uint combine_y;
-    uint combine_z;
-    uint count;  /* tiles */
-    uint levels; /* (of the first list) levels of blocks that any tile has */
+    uint groups_x; /* workgroups: in a tile */
+    uint groups_y; /* tiles in a row */
+    uint groups_z; /* rows */
+    uint count;    /* tiles */
+    uint levels;   /* (of the first list) levels of blocks that any tile has */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_lens_tile_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_lens_gpu, 164 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
