@@ -65,5 +65,12 @@ float covers(ivec2 apart, float radius, barrel cut)
     return min(coverage(apart, radius), second_coverage(vec2(apart), radius, cut.shift)) * cut.per_share;
 }
 
-// How far a row of a disc of some radius, at a distance from its middle, can reach to both sides.
-int row_reach(float radius, int y) { return int(sqrt(max((radius + 1.0) * (radius + 1.0) - float(y * y), 0.0))); }
+// How far a disc of some radius covers anything: half of a pixel is its soft edge. Rows above and below its middle, and
+// pixels to both sides in one of these rows.
+int disc_rows(float radius) { return int(max(radius, 0.5) + 0.5); }
+
+int row_reach(float radius, int y)
+{
+    const float reach = max(radius, 0.5) + 0.5;
+    return int(sqrt(max(reach * reach - float(y * y), 0.0)));
+}

@@ -69,7 +69,7 @@ field_sum gather_near(gatherer to, inout float circle_sum)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const float most = level_radius(0u), reach = min(to.reach.x, most);
-    const int rows = reach > POINT && has_level(to, 1u, 0u) ? int(ceil(reach)) : -1;
+    const int rows = reach > POINT && has_level(to, 1u, 0u) ? disc_rows(reach) : -1;
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y);
         for (int x = -columns; x <= columns; x++) {
@@ -128,15 +128,15 @@ field_sum gather_far(gatherer to)
     const bool small = !to.behind && !to.beside && level_of(to.own) == 0u;
     const float most = small ? view.max_radius : level_radius(0u), least = to.beside ? POINT : -POINT;
     const float cut_to = to.beside ? view.max_radius : max(to.own, POINT);
-    const int rows = int(ceil(reach));
+    const int rows = reach < 0.0 ? -1 : disc_rows(reach);
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y);
         for (int x = -columns; x <= columns; x++) {
             const ivec2 apart = ivec2(x, y), from = inside(to.texel + apart);
             const vec4 source = texelFetch(samples, from, 0);
             const float radius = NEAR && to.behind ? max(source.a, -to.own) : min(source.a, cut_to);
-            float weight = source.a >= least && source.a <= most
-                               ? covers(-apart, radius, to.cut) / disc_area(max(radius, POINT)) : 0.0;
+            const float gathered = source.a >= least && source.a <= most ? 1.0 : 0.0;
+            float weight = gathered * covers(-apart, radius, to.cut) / disc_area(max(radius, POINT));
             if (NEAR)
                 weight *= nearness(vec2(apart), source.a, to.own);
             sum.scene += weight * vec4(source.rgb, 1.0);

@@ -22,7 +22,7 @@ layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 vec4 gather_plane(ivec2 texel, float radius, barrel cut)
 {
     vec4 sum = vec4(0.0);
-    const int rows = int(ceil(abs(radius)));
+    const int rows = disc_rows(abs(radius));
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(abs(radius), y);
         for (int x = -columns; x <= columns; x++) {
@@ -39,7 +39,7 @@ vec4 gather_depths(ivec2 texel, float reach, barrel cut)
 {
     vec4 sum = vec4(0.0);
     const float most = level_radius(0u);
-    const int rows = int(ceil(reach));
+    const int rows = reach < 0.0 ? -1 : disc_rows(reach);
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y);
         for (int x = -columns; x <= columns; x++) {

@@ -273,8 +273,8 @@ static double reads_of_disc(double radius)
     double sum = 0;
     while (radius > FINE_RADIUS)
         radius /= 2;
-    for (int y = (int)-ceil(radius); y <= (int)ceil(radius); y++)
-        sum += 2 * floor(sqrt(fmax((radius + 1) * (radius + 1) - y * y, 0))) + 1;
+    for (int y = -(int)(radius + 0.5); y <= (int)(radius + 0.5); y++)
+        sum += 2 * floor(sqrt((radius + 0.5) * (radius + 0.5) - y * y)) + 1;
     return sum;
 }
 
