@@ -120,8 +120,14 @@ static inline int effect_fixture_close(int failed)
     return fixture_result(failed);
 }
 
-/* Device and context. Exits with 77 if there is no device. Timings are off, except in tests of timings: their barriers
- * around each pass would hide missing ones. */
+/* Ends the test as skipped. What it has created is not destroyed, so nothing may look for leaks. */
+static inline void effect_fixture_skip(const char *reason)
+{
+    printf("skipped: %s\n", reason);
+    fflush(stdout);
+    _exit(77);
+}
+
 /* Variants of passes of the contexts that are opened from now on. By default as VIRGA_TEST_VARIANTS says. */
 static virga_pass_variants effect_fixture_variants;
 
@@ -134,6 +140,8 @@ static inline virga_pass_variants effect_fixture_wanted_variants(void)
                                    : VIRGA_VARIANTS_GPU;
 }
 
+/* Device and context. Exits with 77 if there is no device. Timings are off, except in tests of timings: their barriers
+ * around each pass would hide missing ones. */
 static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, virga_log_fn log, void *user)
 {
     effect_device_lend(gpu);

@@ -12,10 +12,8 @@ static float *draw_look(const look *of, bool lines, uint32_t *line_count)
 {
     shot s;
     open_shot(&s, 2);
-    if (lines && !s.f.context->lines) {
-        printf("skipped: no lines on this device\n");
-        exit(77);
-    }
+    if (lines && !s.f.context->lines)
+        effect_fixture_skip("no lines on this device");
     s.f.context->lines = lines;
     add_picture(&s, of->width, of->height);
     s.f.settings.min_width_px = of->min_width_px;

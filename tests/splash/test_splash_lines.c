@@ -31,10 +31,8 @@ static void put_cloud(shot *s)
 static void open_cloud(shot *s, virga_splash_style style)
 {
     open_shot(s);
-    if (!s->f.context->lines) {
-        printf("skipped: no lines on this device\n");
-        exit(77);
-    }
+    if (!s->f.context->lines)
+        effect_fixture_skip("no lines on this device");
     s->f.settings.style = style;
     apply_settings(s);
     aim_from(s, 0.5);
