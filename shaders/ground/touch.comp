@@ -1,5 +1,7 @@
 // touch.comp - ground that simulated water touches becomes wet: its pores are full, and a film stays on it. The water
 // for that is counted; it comes from the simulation, which does not miss it.
+//
+// A particle is as wide as the distance of particles: it touches its own cell, and those whose middle is under it.
 // One invocation per particle of water. Reads: particles, floors. Writes: cells, counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -12,6 +14,7 @@ layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 27) readonly buffer Water { virga_particle_gpu particles[]; };
 
 #define FILM_UM 50 // what clings to a level surface that water has left
+#define MOST_CELLS 16 // under a particle, along each axis
 #define BELOW_M 0.5 // water that is farther below a floor is under something else
 
 // Fills up to `full`, and returns what was added. Of all particles over a cell one finds it empty, the others full.
@@ -32,6 +35,16 @@ void wet(uint cell_index)
         count_water(VIRGA_GROUND_TOUCHED, added);
 }
 
+void touch(ivec2 cell, float height)
+{
+    const uint cell_index = index_of_cell(cell + ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE);
+    if (!is_ground(cell_index))
+        return;
+    const float above = height - float(floor_of(cell_index).height_um) * 1e-6;
+    if (above < tick.water_reach_m && above > -BELOW_M)
+        wet(cell_index);
+}
+
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
@@ -42,11 +55,11 @@ void main()
     const vec2 at = position.xz * tick.inv_cell_m;
     if (!all(lessThan(abs(vec3(at, position.y)), vec3(1e6)))) // also for NaN
         return;
-    const ivec2 low = ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
-    const uint cell_index = index_of_cell(ivec2(floor(at)) + low);
-    if (!is_ground(cell_index))
-        return;
-    const float above = position.y - float(floor_of(cell_index).height_um) * 1e-6;
-    if (above < tick.water_reach_m && above > -BELOW_M)
-        wet(cell_index);
+    const float half_wide = min(0.5 * tick.water_reach_m * tick.inv_cell_m, 0.5 * float(MOST_CELLS));
+    const ivec2 own = ivec2(floor(at));
+    const ivec2 first = min(ivec2(ceil(at - half_wide - 0.5)), own);
+    const ivec2 last = max(ivec2(ceil(at + half_wide - 0.5)) - 1, own);
+    for (int z = first.y; z <= last.y; z++)
+        for (int x = first.x; x <= last.x; x++)
+            touch(ivec2(x, z), position.y);
 }

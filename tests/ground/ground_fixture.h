@@ -37,6 +37,9 @@ typedef struct ground_fixture {
     const virga_foot *feet;
     uint32_t foot_count;
     VkBuffer handed; /* where they throw droplets */
+    VkBuffer water;  /* particles of simulated water */
+    uint32_t water_count;
+    float water_spacing_m;
     float handed_late_s;
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
@@ -237,6 +240,9 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .wheel_count = f->wheel_count,
                                    .feet = f->feet,
                                    .foot_count = f->foot_count,
+                                   .water = f->water,
+                                   .water_count = f->water_count,
+                                   .water_spacing_m = f->water_spacing_m,
                                    .handed = f->handed,
                                    .handed_late_s = f->handed_late_s};
     ground_fixture_ask_splash(f, &info);

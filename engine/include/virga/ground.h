@@ -269,8 +269,9 @@ typedef struct virga_ground_step_info {
     /* (optional) Particles of simulated water, as virga_water_step takes them: `water_count` virga_particle_gpu from
      * `water_offset` on, a multiple of the device's minStorageBufferOffsetAlignment; ready to be read by compute
      * shaders. Ground that is nearer below them than `water_spacing_m` ([0; 10], their distance at rest) becomes wet:
-     * its pores are filled, and it gets a film of 0.05 mm. VK_NULL_HANDLE: there is none. Costs a pass over the
-     * particles. */
+     * its pores are filled, and it gets a film of 0.05 mm. A particle wets its own cell, and the cells whose middle is
+     * in a square of that side around it, up to 16 along each axis. The simulation does not miss this water; it is
+     * counted in virga_ground_stats.touched_nl. VK_NULL_HANDLE: there is none. Costs a pass over the particles. */
     VkBuffer water;
     VkDeviceSize water_offset;
     uint32_t water_count;
