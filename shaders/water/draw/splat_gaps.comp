@@ -23,11 +23,12 @@ float weight_between(ivec2 texel, ivec2 aside) { return min(weight_at(texel + as
 
 ivec2 direction_of(int i) { return i == 3 ? ivec2(1, -1) : ivec2(i != 1, i != 0); }
 
-// The largest sum of weights on the way to a neighbour, if it is nearly whole. The way ends where there is no water.
+// The largest sum of weights on the way to a neighbour, if it is nearly whole. The way ends where there is no water at
+// all, as between droplets.
 float reached(ivec2 texel, vec2 direction, float far_px)
 {
     float most = 0.0, weight = 1.0;
-    for (int i = 1; i <= FAR_STEPS && most < 0.75 && weight > 0.15; i++) {
+    for (int i = 1; i <= FAR_STEPS && most < 0.75 && weight > 0.01; i++) {
         weight = weight_at(texel + ivec2(round(direction * (far_px * float(i) / float(FAR_STEPS)))));
         most = max(most, weight);
     }
