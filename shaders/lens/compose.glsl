@@ -28,6 +28,13 @@ vec4 field(uint which)
     return textureLod(fields, vec3(sampled, which), 0.0);
 }
 
+// Where nothing is blurred there may be no field.
+vec4 blurred(vec4 sharp, vec4 from_field, float radius)
+{
+    const float share = blurriness(radius);
+    return share > 0.0 ? mix(sharp, from_field, share) : sharp;
+}
+
 vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 
 // The scene without layers, from its fields. `near_px` is the signed circle of confusion of what is in `near`.
@@ -47,9 +54,9 @@ void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float n
     }
     far = vec4(behind.rgb, 1.0);
     if (radius >= 0.0)
-        far = mix(sharp, far, blurriness(radius));
+        far = blurred(sharp, far, radius);
     else
-        near = mix(sharp, near, blurriness(radius));
+        near = blurred(sharp, near, radius);
 }
 
 void scene_at(out vec4 near, out vec4 far, out float near_px)
@@ -69,7 +76,7 @@ vec4 layer_at(uint layer, float radius)
     const vec4 color = layer_color(layer, pixel);
     if (ALL_SHARP || (view.sharp_layers >> layer & 1u) != 0u)
         return color;
-    return mix(color, field(VIRGA_LENS_FIRST_LAYER + layer), blurriness(radius));
+    return blurred(color, field(VIRGA_LENS_FIRST_LAYER + layer), radius);
 }
 
 // The same, cut by the scene's near field where that is in front of it. `behind` is so for the layers before it, and

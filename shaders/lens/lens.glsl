@@ -17,8 +17,13 @@
 
 layout(constant_id = 0) const uint FORM = 0u;
 const uint OWN_FORM = FORM & 255u;
+#ifdef NOT_SPECIALISED // a fragment shader
+#define STEP   view.step
+#define HALVED (STEP == 2u)
+#else
 const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
 const uint STEP = HALVED ? 2u : 1u; // as view.step
+#endif
 
 layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
 #ifndef STATE_WRITTEN

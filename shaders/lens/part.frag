@@ -4,6 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#define NOT_SPECIALISED
 #include "lens.glsl"
 #include "pixels.glsl"
 #include "layers.glsl"

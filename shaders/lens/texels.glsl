@@ -10,6 +10,7 @@ struct texel_circles {
     float weights[4]; // of the pixels in the texel
     float weight;     // their sum
     float radius;     // of the texel
+    float farthest;   // of the pixels
 };
 
 float circle_at(ivec2 pixel)
@@ -21,9 +22,11 @@ texel_circles circles_of(ivec2 texel)
 {
     texel_circles of;
     float nearest = 1e9;
+    of.farthest = -1e9;
     for (uint i = 0u; i < PIXELS; i++) {
         of.of_pixels[i] = circle_at(pixel_of(texel, i));
         nearest = min(nearest, of.of_pixels[i]);
+        of.farthest = max(of.farthest, of.of_pixels[i]);
     }
     const float per_radius = 1.0 / max(abs(nearest), 1.0);
     precise float sum = 0.0, radius = 0.0;

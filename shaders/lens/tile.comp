@@ -7,7 +7,7 @@
 // a wide near blur uncovers is filled in from.
 //
 // It looks at depths only. So colors are read only where something is out of focus, see sample.comp.
-// One workgroup per tile. Reads: depth, layers. Writes: tiles. The first one empties the lists.
+// One workgroup per tile. Reads: depth, layers. Writes: tiles, fields. The first one empties the lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,6 +22,7 @@
 const uint LAYERS = OWN_FORM; // the first that have a depth image are among these
 
 layout(local_size_x = 64) in;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[]; };
 
 // Words of floats that are not negative are in the same order as the floats.
@@ -43,7 +44,8 @@ void look_at_layer(uint layer, ivec2 texel, inout float largest_of_layers, inout
 
 vec3 largest_at(ivec2 texel, inout uint levels)
 {
-    const float radius = circles_of(texel).radius;
+    const texel_circles circles = circles_of(texel);
+    const float radius = circles.radius;
     float layers = 0.0;
     if (abs(radius) > POINT)
         levels |= level_bit(radius < 0.0 ? 1u : 0u, level_of(radius));
@@ -57,7 +59,7 @@ vec3 largest_at(ivec2 texel, inout uint levels)
         look_at_layer(3u, texel, layers, levels);
     if (LAYERS > 4u)
         look_at_layer(4u, texel, layers, levels);
-    return vec3(max(-radius, 0.0), max(radius, 0.0), layers);
+    return vec3(max(-radius, 0.0), max(circles.farthest, 0.0), layers); // of a single pixel, too
 }
 
 // ---- what it tells the tiles around it
@@ -120,6 +122,13 @@ void touch_around(ivec2 own, vec3 radii, uint levels, uint lane)
     }
 }
 
+// (half resolution) Tiles that nothing reaches get no fields, but each part of the picture is drawn everywhere.
+void empty_near_field(ivec2 texel)
+{
+    if (HALVED && all(lessThan(texel, ivec2(view.columns, view.rows))))
+        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+}
+
 void empty_lists()
 {
     for (uint i = 0u; i < VIRGA_LENS_LISTS; i++) {
@@ -139,6 +148,7 @@ void main()
     uint levels = 0u;
     for (uint i = lane; i < VIRGA_LENS_TILE * VIRGA_LENS_TILE; i += 64u) {
         const ivec2 texel = first + ivec2(i % VIRGA_LENS_TILE, i / VIRGA_LENS_TILE);
+        empty_near_field(texel);
         largest = max(largest, largest_at(min(texel, ivec2(view.columns, view.rows) - 1), levels));
     }
     largest.xy *= vec2(greaterThan(largest.xy, vec2(SHARP_REACH)));

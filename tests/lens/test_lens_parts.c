@@ -14,11 +14,11 @@ typedef struct parts {
 } parts;
 
 /* A wall in focus, something bright in front of it, and something behind it. */
-static void open_parts(parts *p)
+static void open_parts(parts *p, bool half_resolution)
 {
     uint32_t hash = 7;
     memset(p, 0, sizeof *p);
-    lens_fixture_open(&p->f, WIDTH, HEIGHT, false);
+    lens_fixture_open(&p->f, WIDTH, HEIGHT, half_resolution);
     lens_create_drawn(&p->f, &p->made);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++)
@@ -61,7 +61,7 @@ static void a_layer_that_is_as_the_scene_is_blurred_as_the_scene(void **state)
 {
     (void)state;
     parts p;
-    open_parts(&p);
+    open_parts(&p, false);
     memcpy(p.f.layers[0].color, p.f.scene.color, sizeof(float) * WIDTH * HEIGHT * 4);
     p.layers[0].on_scene = 1;
     draw_parts(&p, 1);
@@ -76,7 +76,7 @@ static void parts_over_each_other_are_the_picture(void **state)
 {
     (void)state;
     parts p;
-    open_parts(&p);
+    open_parts(&p, false);
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
         for (int c = 0; c < 4; c++) {
             p.f.layers[0].color[4 * i + (uint32_t)c] = c < 3 ? 0.1f : 0.2f;
@@ -96,11 +96,26 @@ static void parts_over_each_other_are_the_picture(void **state)
     close_parts(&p);
 }
 
+/* At half resolution, where no field is computed for what nothing out of focus reaches. */
+static void a_part_in_focus_has_nothing_of_the_frame_before(void **state)
+{
+    (void)state;
+    parts p;
+    open_parts(&p, true);
+    lens_paint_all(&p.f.scene, 0.9f, 0.5);
+    lens_fixture_run(&p.f);
+    lens_paint_all(&p.f.scene, 0.25f, 1);
+    draw_parts(&p, 0);
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
+        assert_float_equal(p.pixels[0][i][0], 0.25, 0);
+    close_parts(&p);
+}
+
 static void parts_that_are_not_there_are_refused(void **state)
 {
     (void)state;
     parts p;
-    open_parts(&p);
+    open_parts(&p, false);
     p.layers[0].depth_m = 1;
     draw_parts(&p, 1);
     const VkCommandBuffer cmd = effect_fixture_begin(&p.f.gpu, p.f.context);
@@ -118,6 +133,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_layer_that_is_as_the_scene_is_blurred_as_the_scene),
         cmocka_unit_test(parts_over_each_other_are_the_picture),
+        cmocka_unit_test(a_part_in_focus_has_nothing_of_the_frame_before),
         cmocka_unit_test(parts_that_are_not_there_are_refused),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

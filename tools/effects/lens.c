@@ -280,19 +280,20 @@ static double reads_of_disc(double radius)
 
 /* A model, not a measurement: bytes that the passes of the physical style move from and to memory for each pixel. A
  * pass moves each texel that it reads once, as neighbours find it in a cache: a tile's discs of 20 texels are 56 x 56
- * samples, which are 50 kB. Depth has 4 bytes, samples and spreads 16, a field 8. All of the scene is blurred and
- * behind the focus; the layer is sharp. Blocks of 16 bytes are written and read once, a quarter of the texels or less.
- * At full resolution passes read both fields and the spreads. */
+ * samples, which are 50 kB. Depth has 4 bytes, samples and spreads 16, a field 8. What is out of focus is behind the
+ * focus; the layer is sharp. Blocks of 16 bytes are written and read once, a quarter of the texels or less. At full
+ * resolution passes read both fields and the spreads, and do all tiles. */
 static double model_bytes(const lens_case *row, const pictures *p)
 {
     const double texels = row->half_resolution ? 0.25 : 1; /* of the work image, per pixel */
     const double near = row->half_resolution ? 0 : 1;      /* half resolution leaves out what no near tile needs */
     if (row->radius_share <= 0)
         return COPY_BYTES;
-    const double sample = 16 + 4 + texels * (16 + 16), tiles = texels * 16;
+    const double share = row->half_resolution ? shares[row->blurred] : 1, tiles = row->half_resolution ? 6 : 4;
+    const double sample = 16 + 4 + texels * (16 + 16);
     const double blocks = row->radius_share * p->height * sqrt(texels) > FINE_RADIUS ? texels * (32 + 2 * 4 + 4) : 0;
-    const double gather = texels * (16 + near * 16 + 2 * 8), combine = COPY_BYTES + 4 + texels * (8 + near * 8);
-    return sample + tiles + blocks + gather + combine;
+    const double gather = texels * (16 + near * 16 + 2 * 8), fields = 4 + texels * (8 + near * 8);
+    return COPY_BYTES + tiles + share * (sample + blocks + gather + fields);
 }
 
 static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "gather", "layers", "combine"};

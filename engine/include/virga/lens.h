@@ -173,8 +173,9 @@ typedef struct virga_lens_layer {
  * VIRGA_ERROR_INVALID: the view has no color (with def.circles it needs none), its viewport is larger than the
  * definition's, or a layer is wrong.
  *
- * Cost: for each texel of the work image, about pi (r + 1)^2 samples, r the largest radius (texels) that reaches
- * its tile of 16 x 16. Half resolution makes texels of 2 x 2 pixels, and skips what a tile does not need. */
+ * Cost: for each texel of the work image, about pi (r + 1/2)^2 samples, r the largest radius (texels) that reaches
+ * its tile of 16 x 16. Half resolution makes texels of 2 x 2 pixels, and pays only for tiles that something out of
+ * focus reaches: for the others it reads depth, color and layers once and writes the picture. */
 VIRGA_API virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
                                           const virga_lens_layer *layers, uint32_t layer_count, double time_s);
 
