@@ -17,9 +17,6 @@ void look_at(uvec2 at)
     sampled = (vec2(at) + 0.5) / float(STEP) / vec2(textureSize(fields, 0).xy);
 }
 
-// How much of a pixel comes from the blurred images. `radius` in px.
-float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
-
 // At full resolution a texel is a pixel, and fetching it is cheaper.
 vec4 field(uint which)
 {
@@ -76,7 +73,12 @@ vec4 layer_at(uint layer, float radius)
     const vec4 color = layer_color(layer, pixel);
     if (ALL_SHARP || (view.sharp_layers >> layer & 1u) != 0u)
         return color;
-    return blurred(color, field(VIRGA_LENS_FIRST_LAYER + layer), radius);
+    const vec4 from_field = field(VIRGA_LENS_FIRST_LAYER + layer);
+    if (!HALVED || view.layer_inv_m[layer] > 0.0)
+        return blurred(color, from_field, radius);
+    // The field has what is out of focus alone (layer_mean), also where this pixel is empty or in focus.
+    const vec4 sum = (1.0 - blurriness(radius)) * color + from_field;
+    return sum / max(sum.a, 1.0);
 }
 
 // The same, cut by the scene's near field where that is in front of it. `behind` is so for the layers before it, and

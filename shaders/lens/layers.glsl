@@ -45,11 +45,16 @@ float layer_circle(uint layer, ivec2 texel)
     return nearest;
 }
 
-// The mean of a layer's pixels in a texel.
+// The mean of a layer's pixels in a texel. At half resolution, of a layer with a depth for each pixel, the part of each
+// that comes from the blurred images: what is in focus comes from the pixels themselves, see layer_at.
 vec4 layer_mean(uint layer, ivec2 texel)
 {
+    const bool in_parts = HALVED && view.layer_inv_m[layer] <= 0.0;
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < STEP * STEP; i++)
-        sum += layer_color(layer, pixel_of(texel, i));
+    for (uint i = 0u; i < STEP * STEP; i++) {
+        const ivec2 pixel = pixel_of(texel, i);
+        const float radius = in_parts ? circle(inverse_depth(layer_depth(layer, pixel))) * float(STEP) : 0.0;
+        sum += (in_parts ? blurriness(radius) : 1.0) * layer_color(layer, pixel);
+    }
     return sum / float(STEP * STEP);
 }

@@ -45,6 +45,9 @@ float circle(float inv_m)
 }
 #endif
 
+// How much of a pixel comes from the blurred images. `radius` in px.
+float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
+
 #define POINT 0.5 // texels: a smaller circle of confusion is sharp
 
 // What a picture may not hold: NaN becomes 0, infinity and huge numbers the largest half float.

@@ -94,6 +94,45 @@ static void nothing_is_left_of_the_picture_before(void **state)
     }
 }
 
+/* A wall in focus, and a layer that has grains out of focus, each with a depth of its own. Where it is empty it has a
+ * depth in focus too, as a layer of drops has. The light of the layer. */
+static double run_grains(bool half_resolution, float *result)
+{
+    lens_fixture f;
+    uint32_t hash = 3;
+    lens_fixture_open(&f, 128, 64, half_resolution);
+    lens_paint_all(&f.scene, 0, 1);
+    const lens_picture *layer = lens_fixture_layer(&f, 0);
+    for (size_t i = 0; i < (size_t)128 * 64; i++)
+        layer->depth[i] = 1;
+    for (int i = 0; i < 60; i++) {
+        const uint32_t x = 24 + (uint32_t)(40 * lens_random(&hash)) * 2,
+                       y = 16 + (uint32_t)(16 * lens_random(&hash)) * 2;
+        for (uint32_t k = 0; k < 4; k++)
+            lens_paint(layer, x + k % 2, y + k / 2, 4, 1 / 1.8); /* 8 px */
+    }
+    lens_fixture_run(&f);
+    memcpy(result, f.result, sizeof(float) * 4 * 128 * 64);
+    const double light = lens_light(f.result, &f);
+    lens_fixture_close(&f);
+    return light;
+}
+
+static void discs_of_a_layer_cover_what_is_in_focus_there(void **state)
+{
+    (void)state;
+    static float half[4 * 128 * 64], full[4 * 128 * 64];
+    const double light = run_grains(true, half), expected = run_grains(false, full);
+    double worst = 0, most = 0;
+    for (size_t i = 0; i < (size_t)128 * 64; i++) {
+        worst = fmax(worst, fabs((double)half[4 * i] - (double)full[4 * i]));
+        most = fmax(most, (double)full[4 * i]);
+    }
+    printf("up to %.3f of %.3f apart, light %.2f of %.2f\n", worst, most, light, expected);
+    assert_true(most > 0.2 && worst < 0.15 * most);
+    assert_float_equal(light, expected, 0.002 * expected); /* half floats */
+}
+
 /* Through a pole in focus, as it goes out of focus, the sky beside it does not jump. */
 static void an_edge_does_not_jump_as_the_focus_moves(void **state)
 {
@@ -120,6 +159,7 @@ int main(void)
         cmocka_unit_test(tiles_that_are_sharp_far_and_near_are_beside_each_other),
         cmocka_unit_test(a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_it),
         cmocka_unit_test(nothing_is_left_of_the_picture_before),
+        cmocka_unit_test(discs_of_a_layer_cover_what_is_in_focus_there),
         cmocka_unit_test(an_edge_does_not_jump_as_the_focus_moves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
