@@ -64,7 +64,7 @@ cp "$work/consumer.c" "$work/consumer.cpp"
 quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib \
     --buildtype release -Db_ndebug=true -Doptimization=0 \
     -Dtools=disabled -Dtests=disabled
-quietly nice ninja -j2 -C "$work/build"
+quietly ninja -j2 -C "$work/build"
 quietly meson install -C "$work/build" --no-rebuild
 export PKG_CONFIG_PATH="$work/prefix/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
 expect "$(pkg-config --modversion virga)" "$version" "version of the pkg-config file"
@@ -100,7 +100,7 @@ endforeach()
 SOURCE
 export CC=$cc CXX=$cxx
 quietly cmake -S "$work/cmake" -B "$work/cmake/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix"
-quietly nice ninja -j2 -C "$work/cmake/build"
+quietly ninja -j2 -C "$work/cmake/build"
 expect "$("$work/cmake/build/in_c")" "$version 6.49" "consumer in C by CMake"
 expect "$("$work/cmake/build/in_cpp")" "$version 6.49" "consumer in C++ by CMake"
 # A version that is not there is refused, not taken for another.
@@ -139,7 +139,7 @@ if grep -qiE "dependency (openexr|assimp|jansson|cmocka|yaml-0.1) found" "$work/
     echo "as a subproject it looks for what only the program and the tests need"
     exit 1
 fi
-quietly nice ninja -j2 -C "$work/host/build"
+quietly ninja -j2 -C "$work/host/build"
 expect "$("$work/host/build/consumer")" "$version 6.49" "consumer of a subproject"
 # CMake is nothing that a host of Meson, or who installs for one, must have: its package is left out then.
 mkdir "$work/tools"
