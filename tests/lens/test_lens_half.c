@@ -133,6 +133,26 @@ static void discs_of_a_layer_cover_what_is_in_focus_there(void **state)
     assert_float_equal(light, expected, 0.002 * expected); /* half floats */
 }
 
+/* Ground a little in front of the focus, by less than is blurred, drops in focus before it, and a bit of sky in each
+ * tile, so that there are discs. */
+static void what_is_nearly_in_focus_hides_no_layer(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    lens_fixture_open(&f, 64, 64, true);
+    lens_paint_all(&f.scene, 0.25f, 1 / 1.03); /* 0.3 px */
+    for (uint32_t i = 0; i < 16; i++)
+        lens_paint(&f.scene, 14 + i % 2 + i / 2 % 2 * 34, 14 + i / 4 % 2 + i / 8 * 34, 1, 0);
+    const lens_picture *layer = lens_fixture_layer(&f, 1);
+    for (uint32_t i = 0; i < 16; i++)
+        lens_paint(layer, 24 + i % 4 * 4, 24 + i / 4 * 4, 2, 1);
+    lens_fixture_run(&f);
+    for (uint32_t i = 0; i < 16; i++)
+        assert_float_equal(lens_result(&f, 24 + i % 4 * 4, 24 + i / 4 * 4), 2, 1e-3);
+    assert_float_equal(lens_result(&f, 8, 8), 0.25, 1e-3);
+    lens_fixture_close(&f);
+}
+
 /* Through a pole in focus, as it goes out of focus, the sky beside it does not jump. */
 static void an_edge_does_not_jump_as_the_focus_moves(void **state)
 {
@@ -160,6 +180,7 @@ int main(void)
         cmocka_unit_test(a_lamp_a_little_before_the_focus_stays_out_of_the_far_field_around_it),
         cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(discs_of_a_layer_cover_what_is_in_focus_there),
+        cmocka_unit_test(what_is_nearly_in_focus_hides_no_layer),
         cmocka_unit_test(an_edge_does_not_jump_as_the_focus_moves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
