@@ -16,7 +16,7 @@ typedef struct frame_case {
 } frame_case;
 
 static const frame_case frame_cases[] = {
-    {"a game's ordinary frame: 100,000 slots of rain, 512 x 512 cells, a windshield", 100000, 4096, 512, 512, 1024,
+    {"a game's ordinary frame: 100,000 slots of rain, 512 x 512 cells, a windshield", 100000, 16384, 512, 512, 1024,
      4096, 100},
 };
 
