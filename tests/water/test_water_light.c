@@ -115,17 +115,23 @@ static uint32_t take_piece(uint32_t x, uint32_t y)
     return sum;
 }
 
-/* Rays that pass behind its edge meet nothing that the picture shows. They must not show the slab a second time. */
-static void an_object_under_water_has_no_outline_beside_it(void **state)
+/* Clear water over a slab, without lamps. */
+static void open_slab(void)
 {
-    (void)state;
-    static const double eyes[3][3] = {{0, 0.6, 0.3}, {0.2, 0.35, 0.4}, {-0.3, 0.2, 0.4}};
     shot_open(&s, SIDE, SIDE);
     s.scene = slab_scene;
     sheet_fill(&s);
     memset(&s.f.settings.lighting, 0, sizeof s.f.settings.lighting);
     for (int c = 0; c < 3; c++)
         s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
+}
+
+/* Rays that pass behind its edge meet nothing that the picture shows. They must not show the slab a second time. */
+static void an_object_under_water_has_no_outline_beside_it(void **state)
+{
+    (void)state;
+    static const double eyes[3][3] = {{0, 0.6, 0.3}, {0.2, 0.35, 0.4}, {-0.3, 0.2, 0.4}};
+    open_slab();
     for (int i = 0; i < 12; i++) {
         uint32_t whole = 0, beside = 0;
         slab_low = (const double[4]){-0.04, -0.09, -0.095, -0.09}[i / 3];
@@ -182,12 +188,7 @@ static void an_object_under_water_is_whole(void **state)
 {
     (void)state;
     static const double eyes[4][3] = {{0, 0.6, 0.3}, {0.2, 0.35, 0.4}, {-0.3, 0.2, 0.4}, {0.25, 0.16, 0.25}};
-    shot_open(&s, SIDE, SIDE);
-    s.scene = slab_scene;
-    sheet_fill(&s);
-    memset(&s.f.settings.lighting, 0, sizeof s.f.settings.lighting);
-    for (int c = 0; c < 3; c++)
-        s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
+    open_slab();
     uint32_t met = 0, missed = 0;
     for (int i = 0; i < 8; i++) {
         slab_low = -0.05;
