@@ -356,7 +356,8 @@ static uint32_t groups_of(uint64_t invocations)
     return (uint32_t)((invocations + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
 }
 
-/* Up to so many slots, a GPU moves the drops in one workgroup. More take longer there than to wait between rounds. */
+/* Up to so many slots, a GPU moves the drops in one workgroup. With more, its loop over them would take longer than the
+ * waits between rounds that it saves: an estimate from the latency of loads, not measured. */
 #define MAX_ONE_WORKGROUP_DROPS (16 * VIRGA_GLASS_GROUP)
 
 static void record_rounds(virga_glass *glass, VkCommandBuffer cmd)

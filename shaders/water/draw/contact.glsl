@@ -57,9 +57,9 @@ Solid solid_here()
 
 float above(Solid solid, vec3 p) { return dot(p - solid.point, solid.normal); }
 
-// The water's surface at REACH from the solid, beside `from`; `covered` 0: there is none. `is_new`: there is water that
-// is higher over the solid than a thin layer.
-Water beside_solid(Solid solid, vec3 from)
+// The water's surface at REACH from the solid, beside `from`; `covered` 0: there is none. `is_high`: there is water
+// that is higher over the solid than a thin layer.
+Water beside_solid(Solid solid, vec3 from, out bool is_high)
 {
     Water found;
     vec3 p = from;
@@ -68,6 +68,7 @@ Water beside_solid(Solid solid, vec3 from)
     float distance = above(solid, from);
     found.covered = 0.0;
     found.is_new = false;
+    is_high = false;
     for (int i = 0; i < 3; i++) {
         p += solid.normal * (reach - distance);
         found.at = image_at(p);
@@ -78,7 +79,7 @@ Water beside_solid(Solid solid, vec3 from)
         found.normal = normal_of(sums.xy / max(sums.w, 1e-12));
         p = ray_of_image(found.at) * found.depth;
         distance = above(solid, p);
-        found.is_new = found.is_new || (sums.w >= 0.5 && distance > THIN * look.spacing_m);
+        is_high = is_high || (sums.w >= 0.5 && distance > THIN * look.spacing_m);
         if (sums.w < 0.5 || length(p - from) > 2.0 * reach)
             return found;
     }
@@ -193,11 +194,12 @@ Water with_contact(Water water, vec3 ray)
     const vec3 from = wet ? ray * water.depth : solid.point;
     if (above(solid, from) > REACH * spacing)
         return water;
-    const Water beside = beside_solid(solid, from);
+    bool is_high;
+    const Water beside = beside_solid(solid, from, is_high);
     Water result = water;
     if (beside.covered > 0.0)
         extend(result, wet, beside, solid, ray, scene);
-    if (wet && !beside.is_new)
+    if (wet && !is_high)
         thin_out(result, solid, ray, scene);
     return result;
 }
