@@ -9,6 +9,7 @@
 #include "gpu/effect_rows.h"
 
 #include <virga/shared/impact.h>
+#include <virga/shared/particle.h>
 
 #include "shaders/glass_shaders.h"
 
@@ -33,6 +34,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, texture_columns, 2, 32, 11, .look = true),
     DEF(U32, texture_rows, 2, 32, 11, .look = true),
     DEF(U32, texture_texels, 8, 64, 16, .look = true),
+    DEF(BOOL, water, false, true, false),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
 };
@@ -121,6 +123,7 @@ static VkDeviceSize grid_cells(const virga_glass_def *def)
 
 enum {
     COUNT_CELLS = 1,
+    COUNT_OCCUPANTS,
     COUNT_SLOTS,
     COUNT_SELECTION_BYTES,
     COUNT_FILM_BLOCKS,
@@ -173,11 +176,12 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const virga_glass_def *def = given;
     const VkDeviceSize columns = glass_cells_along(def->width_m, def->cell_m);
     counts[COUNT_CELLS] = columns * glass_cells_along(def->height_m, def->cell_m);
+    counts[COUNT_OCCUPANTS] = counts[COUNT_CELLS] + (def->water ? counts[COUNT_CELLS] + glass_film_blocks(def) : 0);
     counts[COUNT_SLOTS] = def->max_drops;
     counts[COUNT_SELECTION_BYTES] = VIRGA_SELECTION_BYTES((VkDeviceSize)def->max_drops);
     counts[COUNT_FILM_BLOCKS] = glass_film_blocks(def);
-    counts[COUNT_SEEDS] =
-        GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
+    counts[COUNT_SEEDS] = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops +
+                          VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS + glass_max_sites(def);
     counts[COUNT_GRID] = grid_cells(def) + def->max_drops;
     counts[COUNT_TICKS] = def->max_ticks_per_step;
     count_picture(def, counts);
@@ -200,7 +204,7 @@ static const virga_effect_buffer buffers[] = {
     {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS, FILL},
     {"glass.active", AT(active), VIRGA_USE_STORAGE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
     {"glass.claims", AT(claims), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
-    {"glass.occupants", AT(occupants), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.occupants", AT(occupants), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_OCCUPANTS, FILL},
     {"glass.film", AT(film), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
     {"glass.passed", AT(passed), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
     {"glass.film_blocks", AT(film_blocks), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_FILM_BLOCKS, FILL},
@@ -270,7 +274,7 @@ static const virga_binding_kind bindings[] = {
     BUFFER(grid),                                   /* 11 */
     BUFFER(surface),                                /* 12 */
     TEXEL_BUFFER(nodes),                            /* 13 */
-    [BIND_IMPACTS] = {STORAGE, COMPUTE},            /* 14 */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},            /* 14; or particles of water */
     BUFFER(moved),                                  /* 15 */
     BUFFER(active),                                 /* 16 */
     BUFFER(film_blocks),                            /* 17 */
@@ -279,7 +283,7 @@ static const virga_binding_kind bindings[] = {
 enum { LAYOUT_STEP, LAYOUT_PICTURE };
 
 static const virga_effect_layout layouts[] = {
-    [LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 5 * sizeof(uint32_t)},
+    [LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 2, 5 * sizeof(uint32_t)},
     [LAYOUT_PICTURE] = {AT(picture.bindings), glass_picture_bindings, GLASS_PICTURE_BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0},
 };
 
@@ -312,6 +316,9 @@ static const virga_effect_pass passes[] = {
     STEP(dry_film),
     STEP(film_compact),
     STEP(measure),
+    STEP(flood),
+    STEP(recede),
+    STEP(break_film),
     PICTURE(balls, ball_passes, .forms = 2),
     PICTURE(mist_blocks, mist_blocks),
     PICTURE(film_tiles, film_tiles),
@@ -388,7 +395,7 @@ static virga_result apply_settings(void *object, void *settings)
 /* ---- state */
 
 static const virga_effect_state_row state_rows[] = {
-    STATE(ticks), STATE(last_tick), STATE(host_deg), STATE(host_known), STATE(particles_ever),
+    STATE(ticks), STATE(last_tick), STATE(host_deg), STATE(host_known), STATE(particles_ever), STATE(flooded_until),
 };
 
 /* The height map is of the state before the load. */
@@ -414,13 +421,19 @@ const virga_effect_type glass_type = {
     .check_state = glass_check_state,
 };
 
-VkDescriptorSet glass_write_set(virga_glass *glass)
+void glass_write_sets(virga_glass *glass, const virga_glass_step_info *info)
 {
     virga_bound bound[VIRGA_MAX_BINDINGS];
     virga_effect_bound(&glass->base, glass->bindings, bound);
-    bound[BIND_IMPACTS] = (virga_bound){.buffer = glass->impacts ? glass->impacts : glass->state->buffer,
-                                        .offset = glass->impacts ? glass->impacts_offset : 0};
-    return virga_bindings_write(glass->base.context, glass->bindings, 0, bound);
+    bound[BIND_IMPACTS] = (virga_bound){.buffer = info->impacts ? info->impacts : glass->state->buffer,
+                                        .offset = info->impacts ? info->impacts_offset : 0};
+    glass->step_set = virga_bindings_write(glass->base.context, glass->bindings, 0, bound);
+    if (!info->water || !info->water_count)
+        return;
+    bound[BIND_IMPACTS] = (virga_bound){.buffer = info->water,
+                                        .offset = info->water_offset,
+                                        .range = (VkDeviceSize)info->water_count * sizeof(virga_particle_gpu)};
+    glass->water_set = virga_bindings_write(glass->base.context, glass->bindings, 1, bound);
 }
 
 virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass)

@@ -8,6 +8,7 @@
  *   glass_picture.c  resources and descriptor sets of the height map and the draws
  *   glass_draw.c     prepare, attach, draw
  *   glass_textures.c drops as textures, in the way of Sato et al.
+ *   glass_water.c    simulated water that stands against a pane and recedes
  *   glass_temporal.c motion of a pane since the previous frame
  */
 #ifndef VIRGA_GLASS_INTERNAL_H
@@ -66,16 +67,17 @@ struct virga_glass {
     virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
         *enter_cell, *move_drops, *capture_mark, *capture, *wipe_film, *lay_film, *split_drops, *empty_bins,
         *particle_grid, *push_particles, *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick,
-        *dry_film, *film_compact, *measure;
+        *dry_film, *film_compact, *measure, *flood, *recede, *break_film;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
     float farthest_m;                                        /* max distance of a node from the pane's origin */
     bool masked;                                             /* some cells may have no glass */
-    float outline[9][3];         /* 3 x 3 points of the shape, row by row, to estimate its size on the image */
-    virga_glass_tick_gpu blades; /* of the tick being recorded */
-    bool particles_ever;         /* particles may exist */
-    VkDescriptorSet step_set;
-    VkBuffer impacts; /* of the step being recorded */
-    VkDeviceSize impacts_offset;
+    float low_m[3], high_m[3];                               /* corners of a box around the shape */
+    bool flat;
+    uint32_t flooded_until;              /* the tick up to which simulated water may stand there, or its film break */
+    float outline[9][3];                 /* 3 x 3 points of the shape, row by row, to estimate its size on the image */
+    virga_glass_tick_gpu blades;         /* of the tick being recorded */
+    bool particles_ever;                 /* particles may exist */
+    VkDescriptorSet step_set, water_set; /* with the host's impacts, or with particles of water in their place */
     virga_glass_stats stats;
 
     struct glass_picture picture;
@@ -100,6 +102,20 @@ virga_result glass_check_wiper(const virga_log *log, virga_glass_wiper *wiper, b
 void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double share_from, double share_to,
                        virga_glass_tick_gpu *tick);
 
+/* ---- glass_water.c */
+
+/* The most sites whose film may break in one tick. 0: the pane takes no water. */
+uint32_t glass_max_sites(const virga_glass_def *def);
+virga_result glass_check_water(const virga_glass *glass, const virga_glass_step_info *info);
+/* What all ticks of a step have in common. */
+void glass_fill_water(virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *tick);
+/* The sites that have their turn in a tick. */
+void glass_fill_sites(const virga_glass *glass, virga_glass_tick_gpu *tick);
+/* Before the first tick of a step, in each, and after the last. */
+void glass_record_flood(virga_glass *glass, VkCommandBuffer cmd);
+void glass_record_break(virga_glass *glass, VkCommandBuffer cmd);
+void glass_record_recede(virga_glass *glass, VkCommandBuffer cmd);
+
 /* ---- glass_cells.c */
 
 /* Number of cells that cover a length. The last cell may extend beyond it. */
@@ -109,7 +125,8 @@ uint32_t glass_film_blocks(const virga_glass_def *def);
 
 /* ---- glass.c */
 
-VkDescriptorSet glass_write_set(virga_glass *glass);
+/* Writes glass->step_set, and glass->water_set if there are particles of water. */
+void glass_write_sets(virga_glass *glass, const virga_glass_step_info *info);
 
 /* The description of the pane that its passes read. */
 virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);

@@ -383,14 +383,35 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
     return VIRGA_OK;
 }
 
+/* Whether all nodes are where a parallelogram over three of the corners has them, to a hundredth of a millimetre. */
+static bool is_flat(const virga_glass_node_gpu *nodes)
+{
+    const float *from = nodes[0].position, *u = nodes[NODES - 1].position, *v = nodes[NODES * (NODES - 1)].position;
+    for (uint32_t i = 0; i < NODES * NODES; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double s = i % NODES / (NODES - 1.0), t = i / NODES / (NODES - 1.0);
+            const double at = (1 - s - t) * (double)from[axis] + s * (double)u[axis] + t * (double)v[axis];
+            if (!(fabs((double)nodes[i].position[axis] - at) < 1e-5))
+                return false;
+        }
+    return true;
+}
+
 /* Copies the parts of the shape that the CPU needs later. */
 static void remember(virga_glass *glass, const virga_glass_node_gpu *nodes)
 {
     glass->farthest_m = 0;
+    glass->flat = is_flat(nodes);
+    memcpy(glass->low_m, nodes[0].position, sizeof glass->low_m);
+    memcpy(glass->high_m, nodes[0].position, sizeof glass->high_m);
     for (uint32_t i = 0; i < NODES * NODES; i++) {
         const float *p = nodes[i].position, far = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
         memcpy(glass->normals[i], nodes[i].normal, sizeof glass->normals[i]);
         glass->farthest_m = far > glass->farthest_m ? far : glass->farthest_m;
+        for (int axis = 0; axis < 3; axis++) {
+            glass->low_m[axis] = fminf(glass->low_m[axis], p[axis]);
+            glass->high_m[axis] = fmaxf(glass->high_m[axis], p[axis]);
+        }
     }
     for (uint32_t i = 0; i < 9; i++)
         memcpy(glass->outline[i], nodes[(i % 3 + i / 3 * NODES) * (NODES / 2)].position, sizeof glass->outline[i]);

@@ -27,7 +27,8 @@ static void check_counts(const virga_glass *glass, const virga_glass_state_gpu *
 static void check_groups(const virga_glass *glass, const virga_glass_state_gpu *saved, virga_state_check *check)
 {
     const double slots = glass->def.max_drops, blocks = (double)glass_film_blocks(&glass->def);
-    const double seeds = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + slots + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
+    const double seeds = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + slots + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS +
+                         glass_max_sites(&glass->def);
     virga_state_expect_groups(check, "glass.state.alive_groups", saved->alive_groups, groups_of(slots));
     virga_state_expect_groups(check, "glass.state.seed_groups", saved->seed_groups, groups_of(seeds));
     virga_state_expect_groups(check, "glass.state.active_groups", saved->active_groups, groups_of(slots));

@@ -35,6 +35,8 @@ static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_gla
     stats->landed_nl = count_of(state->counts[VIRGA_GLASS_LANDED]);
     stats->run_off_nl = count_of(state->counts[VIRGA_GLASS_RUN_OFF]);
     stats->wiped_nl = count_of(state->counts[VIRGA_GLASS_WIPED]);
+    stats->touched_nl = count_of(state->counts[VIRGA_GLASS_TOUCHED]);
+    stats->joined_nl = count_of(state->counts[VIRGA_GLASS_JOINED]);
     stats->evaporated_nl = count_of(state->counts[VIRGA_GLASS_EVAPORATED]);
     stats->arrived = count_of(state->counts[VIRGA_GLASS_ARRIVED]);
     stats->merged = count_of(state->counts[VIRGA_GLASS_MERGED]);
@@ -320,6 +322,7 @@ static void push_tick(virga_glass *glass, const virga_glass_step_info *info, con
                         : out->rolling_row + share > glass->rows ? glass->rows - out->rolling_row
                                                                  : share;
     out->rolling_s = (float)(DRY_SHARE * glass->def.tick_s);
+    glass_fill_sites(glass, out);
     glass_fill_blades(glass, (out->tick - 1.0) * glass->def.tick_s, out->tick * glass->def.tick_s,
                       (double)i / info->ticks, (i + 1.0) / info->ticks, out);
     glass->tick_offset = virga_ring_push(glass->base.context, &glass->tick_ring, out, sizeof *out);
@@ -457,6 +460,7 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
 static void record_spawns(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.spawn");
+    glass_record_break(glass, cmd);
     over(glass, cmd, glass->spawn_claim, SEEDS);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->spawn_scan, 1);
     over(glass, cmd, glass->spawn, SEEDS);
@@ -526,6 +530,8 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
         return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
     if (!(info->air_density >= 0 && info->air_density <= 100))
         return virga_wrong_argument(log, "step_info.air_density: expected 0 to 100, got %g", (double)info->air_density);
+    if (glass_check_water(glass, info))
+        return VIRGA_ERROR_INVALID;
     if (info->sizes && info->sizes->kind != VIRGA_SIZES_MARSHALL_PALMER && info->sizes->kind != VIRGA_SIZES_BEST &&
         virga_sizes_densities(info->sizes, 1, (double)info->air_density, 0, NULL, NULL))
         return virga_wrong_argument(log, "step_info.sizes: expected Marshall-Palmer, Best, or a table of 2 to 256 "
@@ -553,15 +559,19 @@ static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_gl
     fill_motion(glass, info, &common);
     fill_holding(glass, &common);
     fill_particles(glass, &common);
+    glass_fill_water(glass, info, &common);
     landing_of(glass, info, &common, &arrivals);
     glass->particles_ever = glass->particles_ever || glass->settings.wiper_count;
     for (uint32_t i = 0; i < info->ticks; i++) {
         push_tick(glass, info, &common, arrivals, i);
+        if (!i)
+            glass_record_flood(glass, cmd);
         bind(glass, cmd);
         record_motion(glass, cmd);
         record_wipers(glass, cmd);
         record_spawns(glass, cmd);
     }
+    glass_record_recede(glass, cmd);
     glass->ticks += info->ticks;
     glass->last_tick = info->first_tick + info->ticks - 1;
     for (uint32_t i = 0; i < VIRGA_GLASS_MAX_WIPERS; i++)
@@ -580,13 +590,11 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     const virga_glass_step_info *info = &checked;
     const bool changed = clamp_motion(&context->log, &checked);
     virga_effect_begin_step(&glass->base, cmd);
-    glass->impacts = info->impacts;
-    glass->impacts_offset = info->impacts_offset;
-    glass->step_set = glass_write_set(glass);
-    glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
+    glass_write_sets(glass, info);
     if (!glass_first_contents(glass, cmd))
         upload_shape(glass, cmd);
     virga_effect_reads(&glass->base, cmd, info->impacts);
+    virga_effect_reads(&glass->base, cmd, info->water_count ? info->water : VK_NULL_HANDLE);
     if (info->ticks)
         record_ticks(glass, cmd, info);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),

@@ -7,6 +7,8 @@
  *
  *   the host's particles -> water -> droplets that leave it -> splash, which tells water what it took back
  *
+ *   the host's particles -> ground and panes that they touch
+ *
  *   the host's wheels and feet -> ground -> droplets that they throw -> splash */
 #include "scene/scene_internal.h"
 
@@ -72,6 +74,7 @@ static void share_pane(const virga_scene_def *def, uint32_t index, void *effect_
     virga_glass_def *pane = effect_def;
     *pane = def->panes[index];
     pane->seed = def->rain.seed + index;
+    pane->water = pane->water || def->with_water;
     pane->tick_s = def->rain.tick_s;
     pane->max_ticks_per_step = def->rain.max_ticks_per_step;
 }
@@ -340,6 +343,23 @@ static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_
     return scene_merge_results(result, catch_spray(scene, cmd, index, frame, &hits));
 }
 
+/* Water touches panes, too. It is not counted against that of an exchange with the ground. */
+static void fill_striking(const virga_scene *scene, const virga_scene_frame *frame, const virga_scene_pane *pane,
+                          virga_glass_step_info *info)
+{
+    const virga_water *water = scene_find(scene, &water_type, 0);
+    virga_water_settings settings;
+    if (!water || !frame->water.count)
+        return;
+    virga_water_get(water, &settings);
+    info->water = frame->water.particles;
+    info->water_offset = frame->water.offset;
+    info->water_count = frame->water.count;
+    info->water_spacing_m = settings.spacing_m;
+    memcpy(info->water_origin_m, frame->water.origin_m, sizeof info->water_origin_m);
+    memcpy(info->position_m, pane->pose.position_m, sizeof info->position_m);
+}
+
 /* The pane gets the rain that falls on the ground, reduced by the pane's shelter. */
 static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
@@ -362,6 +382,7 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
     memcpy(info.angular_velocity_rad_s, pane->angular_velocity_rad_s, sizeof info.angular_velocity_rad_s);
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
+    fill_striking(scene, frame, pane, &info);
     virga_result result = catch_drops(scene, cmd, index, pane, frame, &info);
     if (result >= 0)
         result = virga_glass_step(scene_find(scene, &glass_type, index), cmd, &info);

@@ -28,6 +28,7 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #define VIRGA_GLASS_MAX_PARTS        64 /* max particles that one drop becomes */
 #define VIRGA_GLASS_BLOCKS_PER_GROUP 8  /* blocks of cells per workgroup of the measuring pass */
 #define VIRGA_GLASS_FILM_BLOCK       16 /* cells along the side of a block; blocks without film are skipped */
+#define VIRGA_GLASS_SITE_SPAN        4  /* sites along the side of the largest area whose film becomes one drop */
 
 /* The pane. */
 struct virga_glass_pane_gpu {
@@ -113,6 +114,24 @@ struct virga_glass_tick_gpu {
     uint rolling_row;  /* (film) a tick dries only some rows: the first of them */
     uint rolling_rows; /* (film) their number */
     float rolling_s;   /* (film) s, time since these rows were last dried */
+    /* Simulated water. */
+    uint flooded;          /* 1: it may stand against the pane, or have left film that has not broken yet */
+    uint water_count;      /* particles that may touch the pane in this step */
+    float water_spacing_m; /* m, their distance at rest */
+    uint water_rounds;     /* steps of the search for the point of the surface below a particle; 1: it is flat */
+    float water_offset[3]; /* m, in the world: from the pane's origin to the origin of the particles */
+    float world_from_pane[9];
+    float pane_velocity[3]; /* m/s */
+    float low[3];           /* m, corners of a box around the surface */
+    float high[3];
+    float left_m;        /* m: film that water leaves at a receding speed of 1 m/s; it grows with its power of 2/3 */
+    float left_from_m_s; /* m/s: slower water leaves none */
+    uint recede_ticks;   /* a cell that nothing touches for so long is no more under water */
+    float break_ticks;   /* mean time until the film of a site becomes a drop */
+    uint sites;          /* areas of cells whose film may become drops in this tick */
+    uint site_columns;
+    uint first_site_row;
+    uint site_cells; /* along a side of a site */
     virga_glass_blade_gpu blades[VIRGA_GLASS_BLADES];
     float sizes_m[VIRGA_GLASS_SIZES]; /* m, diameters of drops that land: quantiles of their distribution by number */
 };
@@ -123,16 +142,26 @@ struct virga_glass_count_gpu {
     uint high;
 };
 
-#define VIRGA_GLASS_LANDED       0 /* nl */
-#define VIRGA_GLASS_RUN_OFF      1 /* nl, over an edge */
-#define VIRGA_GLASS_WIPED        2 /* nl, pushed over an edge by a blade, or landed on a blade */
-#define VIRGA_GLASS_EVAPORATED   3 /* nl */
-#define VIRGA_GLASS_ARRIVED      4 /* drops */
-#define VIRGA_GLASS_MERGED       5 /* drops */
-#define VIRGA_GLASS_TO_PARTS     6 /* drops that became particles */
-#define VIRGA_GLASS_TO_DROPS     7 /* particles that became drops */
-#define VIRGA_GLASS_WITHOUT_SLOT 8 /* drops without a free slot: their water became part of the film */
-#define VIRGA_GLASS_COUNTS       9
+#define VIRGA_GLASS_LANDED       0  /* nl */
+#define VIRGA_GLASS_RUN_OFF      1  /* nl, over an edge */
+#define VIRGA_GLASS_WIPED        2  /* nl, pushed over an edge by a blade, or landed on a blade */
+#define VIRGA_GLASS_EVAPORATED   3  /* nl */
+#define VIRGA_GLASS_ARRIVED      4  /* drops */
+#define VIRGA_GLASS_MERGED       5  /* drops */
+#define VIRGA_GLASS_TO_PARTS     6  /* drops that became particles */
+#define VIRGA_GLASS_TO_DROPS     7  /* particles that became drops */
+#define VIRGA_GLASS_WITHOUT_SLOT 8  /* drops without a free slot: their water became part of the film */
+#define VIRGA_GLASS_TOUCHED      9  /* nl, left by simulated water that receded */
+#define VIRGA_GLASS_JOINED       10 /* nl, taken up by simulated water */
+#define VIRGA_GLASS_COUNTS       11
+
+/* What simulated water does to a cell: a word with one of these in the two highest bits. */
+#define VIRGA_GLASS_DRY     0u
+#define VIRGA_GLASS_BREAKS  1u /* it has left film that has not broken yet; below: the tick */
+#define VIRGA_GLASS_UNDER   2u /* it stands there; below: ticks since a particle touched, and its speed */
+#define VIRGA_GLASS_REACHED 3u /* a particle touched in this step; below: the highest speed along the pane (mm/s) */
+#define VIRGA_GLASS_PHASE   30 /* bits below them */
+#define VIRGA_GLASS_SPEED   12 /* bits of the speed */
 
 struct virga_glass_state_gpu {
     uint alive;   /* entries of the list of live slots */
@@ -172,7 +201,7 @@ struct virga_glass_state_gpu {
 };
 
 /* A seed: water that needs a slot at the tick's end, 40 bytes. First the drops that land in the tick, then one seed per
- * active slot, then the bins of the blades. */
+ * active slot, then the bins of the blades, then sites whose film breaks. */
 struct virga_glass_seed_gpu {
     float position[2];
     float velocity[2];
@@ -203,9 +232,9 @@ VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 296);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 6444);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 6460);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 312);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 6460);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 6476);
 #undef uint
 #endif
 

@@ -99,10 +99,22 @@ void call_virga_glass_shape_set(calls *c)
               wrong ? NULL : &shape);
 }
 
+/* Particles of a solver of the same context. Not every pane takes water. */
+static void fill_water(calls *c, uint32_t context, virga_glass_step_info *info)
+{
+    const calls_handle fluid = calls_pick(c, CALLS_FLUID);
+    virga_fluid_buffer particles = {0};
+    if (fluid.object && fluid.context == context && calls_once_in(c, 2))
+        virga_fluid_particles(fluid.object, &particles, &info->water_count);
+    info->water = particles.buffer;
+    info->water_spacing_m = 0.05f;
+}
+
 void call_virga_glass_step(calls *c)
 {
     static const calls_member kept[] = {CALLS_KEPT(virga_glass_step_info, sizes),
-                                        CALLS_KEPT(virga_glass_step_info, impacts)};
+                                        CALLS_KEPT(virga_glass_step_info, impacts),
+                                        CALLS_KEPT(virga_glass_step_info, water)};
     const calls_handle h = calls_pick(c, CALLS_GLASS), rain = calls_pick(c, CALLS_RAIN);
     virga_sizes sizes;
     double diameters[4], numbers[4];
@@ -116,6 +128,7 @@ void call_virga_glass_step(calls *c)
     if (!rain.object)
         info.first_tick = info.ticks = 0;
     info.sizes = calls_once_in(c, 4) ? &sizes : NULL;
+    fill_water(c, h.context, &info);
     CALLS_WILD(c, &info, kept);
     if (!c->device->honest)
         info.impacts = calls_once_in(c, 3) ? c->device->buffer(c) : VK_NULL_HANDLE;

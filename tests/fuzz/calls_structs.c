@@ -208,8 +208,9 @@ void calls_fill_glass_def(calls *c, virga_glass_def *out)
     SMALL(max_drops, 256, 1024);
     SMALL(max_texels, 64, 256);
     out->height_map = calls_once_in(c, 3);
+    out->water = calls_once_in(c, 2);
     if (!c->device->honest) {
-        KEEP(CALLS_BOOL(virga_glass_def, height_map));
+        KEEP(CALLS_BOOL(virga_glass_def, height_map), CALLS_BOOL(virga_glass_def, water));
     }
 }
 

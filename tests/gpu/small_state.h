@@ -195,9 +195,11 @@ static inline void small_state_glass(small_state *s, const virga_glass *pane, co
 {
     uint32_t slots;
     virga_glass_drops(pane, NULL, &slots);
-    const uint64_t is = g->drops_nl + g->particles_nl + g->film_nl + g->run_off_nl + g->wiped_nl + g->evaporated_nl;
-    if (g->landed_nl != is)
-        small_state_wrong(s, "%llu nl landed on a pane, %llu nl are there or went", (unsigned long long)g->landed_nl,
+    const uint64_t came = g->landed_nl + g->touched_nl;
+    const uint64_t is =
+        g->drops_nl + g->particles_nl + g->film_nl + g->run_off_nl + g->wiped_nl + g->evaporated_nl + g->joined_nl;
+    if (came != is)
+        small_state_wrong(s, "%llu nl came to a pane, %llu nl are there or went", (unsigned long long)came,
                           (unsigned long long)is);
     if ((uint64_t)g->drops + g->particles > slots)
         small_state_wrong(s, "%u drops and %u particles in %u slots of a pane", g->drops, g->particles, slots);

@@ -506,7 +506,8 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* The budget of a pane: landed = drops + particles + film + wiped + run_off + evaporated, to the last nanolitre. */
+/* The budget of a pane, to the last nanolitre: landed + touched = drops + particles + film + wiped + run_off +
+ * evaporated + joined. */
 static void write_pane(const glass_pane *pane, jsonl *stats)
 {
     virga_glass_stats g;
@@ -525,12 +526,14 @@ static void write_pane(const glass_pane *pane, jsonl *stats)
     jsonl_uint64(stats, "ball_entries_dropped", g.ball_entries_dropped);
     jsonl_begin_object(stats, "water_ul");
     jsonl_number(stats, "landed", (double)g.landed_nl * 1e-3);
+    jsonl_number(stats, "touched", (double)g.touched_nl * 1e-3);
     jsonl_number(stats, "drops", (double)g.drops_nl * 1e-3);
     jsonl_number(stats, "particles", (double)g.particles_nl * 1e-3);
     jsonl_number(stats, "film", (double)g.film_nl * 1e-3);
     jsonl_number(stats, "wiped", (double)g.wiped_nl * 1e-3);
     jsonl_number(stats, "run_off", (double)g.run_off_nl * 1e-3);
     jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
+    jsonl_number(stats, "joined", (double)g.joined_nl * 1e-3);
     jsonl_end(stats);
     jsonl_end(stats);
 }

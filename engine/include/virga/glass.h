@@ -21,8 +21,9 @@
  * Then the host draws its scene, and copies its color if the drops are to show it (virga_view.color). Inside rendering,
  * last of all but for what is nearer to the eye than the pane, it calls virga_glass_draw.
  *
- * Water is counted in whole nanolitres. All that has landed is on the pane, has run off its edges, was wiped off or has
- * evaporated, to the last nanolitre. Deterministic: the same steps give the same bits.
+ * Water is counted in whole nanolitres. All that has landed, or was left by simulated water, is on the pane, has run
+ * off its edges, was wiped off, has joined simulated water or has evaporated, to the last nanolitre. Deterministic: the
+ * same steps give the same bits.
  * Thread-safety: as virga/vulkan.h says. */
 #ifndef VIRGA_GLASS_H
 #define VIRGA_GLASS_H
@@ -77,6 +78,10 @@ typedef struct virga_glass_def {
     /* Fills the whole height map for virga_glass_map_get, also where there is only fine film. Costs time for every
      * texel instead of only those with drops. Default false. */
     bool height_map;
+
+    /* Takes the particles of simulated water, see virga_glass_step_info.water. Costs 4 bytes of device memory per cell,
+     * and 44 per drop that film may become in a tick: some 0.2 MB by default. Default false. */
+    bool water;
 
     /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs
      * 37 bytes per texel, and 0.8 MB. Default 1. */
@@ -570,6 +575,37 @@ typedef struct virga_glass_step_info {
      * read by compute shaders. */
     VkBuffer impacts;
     VkDeviceSize impacts_offset;
+
+    /* (optional) Particles of simulated water, as virga_water_step takes them: `water_count` virga_particle_gpu from
+     * `water_offset` on, a multiple of the device's minStorageBufferOffsetAlignment; ready to be read by compute
+     * shaders. Needs glass_def.water.
+     *
+     * Water touches the pane where a particle is on its outside, less than `water_spacing_m` ([0; 10], their distance
+     * at rest) from it, or no more than a quarter of that behind it: the cell below it and those within three quarters
+     * of that distance, up to 64 along each axis. Water inside the pane does nothing to it.
+     *
+     * What is on these cells joins the water, and so does what lands on them: the pane is clear there. A cell that
+     * nothing has touched for 0.06 s has a film, as thick as a plate has that is drawn out of water at the speed U of
+     * the fastest particle that touched it last, along the pane and relative to it: 0.94 l Ca^(2/3), where l is the
+     * capillary length, 2.7 mm, and Ca = mu U / sigma (Landau and Levich 1942; Derjaguin 1943). That is 26 micrometres
+     * at 7 cm/s and 150 at 1 m/s. It holds below some 7 cm/s, Ca = 0.001; faster water leaves more at first, which runs
+     * down within a second, and that is not simulated. Speeds above 4.1 m/s count as that. Below Ca = t^3 / (9 sqrt(3)
+     * ln(L)), with the receding contact angle t and ln(L) = 15, the contact line keeps up with the water and the glass
+     * stays dry (de Gennes 1986): on the paper's glass below 9 cm/s, on coated glass below 1.5 m/s.
+     * Once film_break_s has passed, the film breaks into drops, of what is on squares of 4 to 16 mm (at least 1 to 4
+     * cells); an eighth stays as fine drops.
+     *
+     * The simulation neither gives this water nor gets that which joins it; both are counted, in
+     * virga_glass_stats.touched_nl and joined_nl. VK_NULL_HANDLE: there is none. A step with 0 ticks does not read
+     * them. Costs a pass over the particles, of which those near the pane cost more, and until the film has broken one
+     * over blocks of cells, and one over sites of film in each tick. */
+    VkBuffer water;
+    VkDeviceSize water_offset;
+    uint32_t water_count;
+    float water_spacing_m;
+
+    /* (water) [-1e9; 1e9] positions in the world (m) that the particles' are relative to, and of the pane's origin. */
+    double water_origin_m[3], position_m[3];
 } virga_glass_step_info;
 
 /* Lets drops land, run, be wiped and dry. Outside rendering; once per frame. A frame with 0 ticks costs next to
@@ -698,12 +734,15 @@ VIRGA_API void virga_glass_map_get(const virga_glass *glass, virga_glass_map *ma
 /* ---- statistics ------------------------------------------------------------------------------------------------ */
 
 /* The newest statistics of completed frames, since creation unless the comment says otherwise. Water is in nanolitres:
- *     landed = drops + particles + film + run_off + wiped + evaporated */
+ *     landed + touched = drops + particles + film + run_off + wiped + evaporated + joined */
 typedef struct virga_glass_stats {
     /* 0: none yet. */
     uint64_t frame_index;
 
     uint64_t landed_nl, run_off_nl, wiped_nl, evaporated_nl;
+
+    /* Left by simulated water that receded from the pane, and taken up by it: the simulation misses neither. */
+    uint64_t touched_nl, joined_nl;
 
     /* On the pane now. Film includes what blades have gathered. */
     uint64_t drops_nl, particles_nl, film_nl;

@@ -43,7 +43,8 @@ typedef struct virga_scene_def {
     /* (optional) pane_count definitions, distant panes first; they are copied. Ticks are copied from `rain`. The first
      * pane gets the seed of the rain, each further one a seed that is one higher. The first rain.max_panes of them
      * catch the drops that are seen to fall (virga_rain_find_hits): with their ids, and none under cover. The others
-     * get drops of their own, at the rate of the rain. Default NULL. */
+     * get drops of their own, at the rate of the rain. In a scene with water all of them take it (glass_def.water).
+     * Default NULL. */
     const virga_glass_def *panes;
 
     /* [0; VIRGA_SCENE_MAX_PANES]. All panes share their pipelines. Each has memory (virga_glass_estimate) and passes of
@@ -177,7 +178,8 @@ typedef struct virga_scene_frame {
     const virga_scene_pane *panes;
 
     /* The particles of the scene's water, as virga_water_step takes them. They are read when the device executes the
-     * frame. All zero: there is no water in this frame. Not used in a scene without water. */
+     * frame. They wet the ground and the panes that they touch, see virga_ground_step_info.water and
+     * virga_glass_step_info.water. All zero: there is no water in this frame. Not used in a scene without water. */
     virga_water_step_info water;
 
     /* (optional) The ground's water in the region of that solver's step becomes particles of the next one, and

@@ -1,5 +1,5 @@
-// begin_tick.comp - begins a tick: drops evaporate, forces accelerate those that can move, and each of them gets the
-// distance that it may move in this tick.
+// begin_tick.comp - begins a tick: drops under simulated water join it, others evaporate, forces accelerate those that
+// can move, and each of them gets the distance that it may move in this tick.
 // One invocation per live slot. Reads: the live list, cells, blades. Writes: drops, selection (active slots; second
 // kind: particles), state. Paper: Goto et al. 2009, section 4.1.
 #version 460
@@ -10,6 +10,7 @@
 #include "live.glsl"
 #include "forces.glsl"
 #include "blades.glsl"
+#include "flood.glsl"
 #define COMPACT_GROUP VIRGA_GLASS_GROUP
 #define COMPACT_SELECTION_BINDING 3
 #define COMPACT_LIST_BINDING 16
@@ -21,7 +22,7 @@
 #undef listed
 #undef List
 
-shared uint evaporated, max_nl;
+shared uint evaporated, joined, max_nl;
 
 // Water that a drop loses: tails shrink (section 4.1), all drops evaporate.
 uint loss(uint water, uint kind, uint random, float a)
@@ -70,12 +71,30 @@ bool near_blade(uint slot)
     return false;
 }
 
+// Whether simulated water has come to a drop. It frees the slot: the drop is a part of that water.
+bool join_water(uint slot, bool on_mesh)
+{
+    const ivec2 last = ivec2(tick.pane.columns, tick.pane.rows) - 1;
+    const uint cell = on_mesh ? drops[slot].cell
+                              : cell_number(clamp(cell_at(to_vec2(drops[slot].position)), ivec2(0), last));
+    if (!is_under_water(cell))
+        return false;
+    atomicAdd(joined, drops[slot].water_nl);
+    drops[slot].kind = VIRGA_GLASS_FREE;
+    drops[slot].water_nl = 0u;
+    if (on_mesh)
+        occupants[cell] = 0u;
+    return true;
+}
+
 // Returns the selection of the slot: whether the drop is active in this tick.
 uint update_drop(uint slot, inout uint water, inout uint lost)
 {
     uint kind = drops[slot].kind;
-    water = drops[slot].water_nl;
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP, ran = (kind & VIRGA_GLASS_RUNNING) != 0u;
+    if (tick.flooded != 0u && join_water(slot, on_mesh))
+        return NOT_SELECTED;
+    water = drops[slot].water_nl;
     const float a = base_radius(water), mass = float(water) * KG_OF_NL;
     drops[slot].age_s += tick.tick_s;
     const bool changed = (kind & VIRGA_GLASS_CHANGED) != 0u;
@@ -106,7 +125,7 @@ uint update_drop(uint slot, inout uint water, inout uint lost)
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        evaporated = max_nl = 0u;
+        evaporated = joined = max_nl = 0u;
     const uint slot = live_slot();
     uint water = 0u, lost = 0u, selected = NOT_SELECTED;
     if (slot != NONE)
@@ -118,6 +137,7 @@ void main()
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         count(VIRGA_GLASS_EVAPORATED, evaporated);
+        count(VIRGA_GLASS_JOINED, joined);
         atomicMax(state.max_nl, max_nl);
     }
 }

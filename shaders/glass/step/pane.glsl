@@ -15,7 +15,8 @@ layout(scalar, set = 0, binding = 1) buffer State { virga_glass_state_gpu state;
 layout(scalar, set = 0, binding = 2) EXCHANGED buffer Drops { virga_glass_drop_gpu drops[]; };
 // two arrays, one behind the other, with a claim per cell
 layout(scalar, set = 0, binding = 5) EXCHANGED buffer Claims { uint claims[]; };
-layout(scalar, set = 0, binding = 6) EXCHANGED buffer Occupants { uint occupants[]; }; // slot + 1; 0: no drop
+// Slot + 1; 0: no drop. Behind these is what flood.glsl describes.
+layout(scalar, set = 0, binding = 6) EXCHANGED buffer Occupants { uint occupants[]; };
 layout(scalar, set = 0, binding = 7) EXCHANGED buffer Film { uint film[]; };           // nl
 // The tick in which a drop last ran over a cell; 0: never.
 layout(scalar, set = 0, binding = 8) EXCHANGED buffer Passed { uint passed[]; };

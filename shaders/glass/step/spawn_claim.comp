@@ -8,6 +8,7 @@
 #include "counters.glsl"
 #include "seeds.glsl"
 #include "blades.glsl"
+#include "flood.glsl"
 #include "shared/impact.h"
 
 layout(local_size_x = VIRGA_GLASS_SMALL_GROUP) in;
@@ -61,8 +62,8 @@ bool is_on_blade(vec2 at)
     return false;
 }
 
-// Decides what becomes of it: a drop that misses the pane is ignored, one that lands on a blade is wiped off, a fine
-// one becomes film.
+// Decides what becomes of it: a drop that misses the pane is ignored, one that lands on a blade is wiped off, one that
+// lands on simulated water joins it, a fine one becomes film.
 void land_drop(inout virga_glass_seed_gpu seed)
 {
     const ivec2 cell = cell_at(to_vec2(seed.position));
@@ -75,6 +76,9 @@ void land_drop(inout virga_glass_seed_gpu seed)
     seed.cell = cell_number(cell);
     if (is_on_blade(to_vec2(seed.position)) || is_on_blade(cell_middle(seed.cell))) {
         count(VIRGA_GLASS_WIPED, seed.water_nl);
+        seed.water_nl = 0u;
+    } else if (is_under_water(seed.cell)) {
+        count(VIRGA_GLASS_JOINED, seed.water_nl);
         seed.water_nl = 0u;
     } else if (float(seed.water_nl) < tick.mist_nl) { // no fresh film: these are fine drops from the start
         atomicAdd(film[seed.cell], seed.water_nl);

@@ -173,14 +173,17 @@ bool glass_fill_budget(const void *state, uint32_t index, tool_budget *budget)
     if (index >= g->count)
         return false;
     virga_glass_stats_get(g->panes[index].glass, &s);
+    const uint64_t all = s.landed_nl + s.touched_nl;
     *budget = (tool_budget){.title = g->panes[index].from->name,
-                            .rows = {{"landed", s.landed_nl, s.landed_nl},
-                                     {"in drops", s.drops_nl, s.landed_nl},
-                                     {"in particles", s.particles_nl, s.landed_nl},
-                                     {"film", s.film_nl, s.landed_nl},
-                                     {"run off", s.run_off_nl, s.landed_nl},
-                                     {"wiped off", s.wiped_nl, s.landed_nl},
-                                     {"evaporated", s.evaporated_nl, s.landed_nl}},
-                            .row_count = 7};
+                            .rows = {{"landed", s.landed_nl, all},
+                                     {"from simulated water", s.touched_nl, all},
+                                     {"in drops", s.drops_nl, all},
+                                     {"in particles", s.particles_nl, all},
+                                     {"film", s.film_nl, all},
+                                     {"run off", s.run_off_nl, all},
+                                     {"wiped off", s.wiped_nl, all},
+                                     {"evaporated", s.evaporated_nl, all},
+                                     {"to simulated water", s.joined_nl, all}},
+                            .row_count = 9};
     return true;
 }
