@@ -211,6 +211,8 @@ static virga_result create_passes(virga_effect *effect)
                                  .group = &effect->passes,
                                  .name = row->name};
         for (uint32_t form = 0; form < form_count(row); form++) {
+            if (type->form_used && !type->form_used(effect, row, form))
+                continue;
             def.constant = common | (row->constant + form);
             TRY(virga_compute_pipeline_create(effect->context, &def, &pipelines[form]));
         }

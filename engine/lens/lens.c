@@ -203,6 +203,28 @@ static uint32_t pass_constant(const void *object)
     return lens->def.half_resolution && !lens->def.circles ? VIRGA_LENS_HALVED : 0;
 }
 
+uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
+{
+    return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
+}
+
+static bool form_used(const void *object, const virga_effect_pass *pass, uint32_t form)
+{
+    const virga_lens *lens = object;
+    const uint32_t forms = VIRGA_LENS_LAYERS + 1, layers = form % forms;
+    const uint32_t kind = form / forms % VIRGA_LENS_COMBINE_KINDS;
+    const size_t member = pass->member;
+    if (member == AT(focus))
+        return true;
+    if (lens->def.circles || member == AT(circle))
+        return lens->def.circles && member == AT(circle);
+    if (member != AT(tile) && member != AT(combine))
+        return true;
+    const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;
+    return layers == lens_layer_form(lens, layers) &&
+           (member != AT(combine) || lens->def.half_resolution || sharp_or_blurred);
+}
+
 static void fill_areas(virga_lens *lens)
 {
     lens_fill_areas(lens->settings.blades, (double)lens->settings.blade_roundness,
@@ -267,7 +289,7 @@ VIRGA_EFFECT_DRAW_FUNCTIONS(lens)
 const virga_effect_type lens_type = {
     VIRGA_EFFECT_TABLES(lens, "a lens", "lens_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings, pass_constant),
+    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings, pass_constant, form_used),
     .draws = lens_draws,
     .draw_count = LENS_DRAWS,
     .readback_bytes = VIRGA_MAX_VIEWS * sizeof(virga_lens_state_gpu),

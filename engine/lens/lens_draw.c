@@ -289,16 +289,16 @@ static void record_gather(virga_lens *lens, VkCommandBuffer cmd, const virga_len
 static void record_combine(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
 {
     virga_context *context = lens->base.context;
-    const uint32_t forms = VIRGA_LENS_LAYERS + 1;
+    const uint32_t forms = VIRGA_LENS_LAYERS + 1, layers = lens_layer_form(lens, view->layers);
     const uint32_t linear = is_linear(view) ? VIRGA_LENS_COMBINE_KINDS * forms : 0;
     if (!lens->def.half_resolution || view->all_sharp) {
         const uint32_t kind = view->all_sharp ? VIRGA_LENS_ALL_SHARP : VIRGA_LENS_TILES_BLURRED;
-        over(lens, cmd, "lens.combine", lens->combine[linear + kind * forms + view->layers], view->width, view->height);
+        over(lens, cmd, "lens.combine", lens->combine[linear + kind * forms + layers], view->width, view->height);
         return;
     }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.combine");
     for (uint32_t kind = 0; kind < VIRGA_LENS_TILE_KINDS; kind++)
-        over_list(lens, cmd, lens->combine[linear + kind * forms + view->layers], kind);
+        over_list(lens, cmd, lens->combine[linear + kind * forms + layers], kind);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -355,7 +355,8 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
     virga_dispatch_2d(context, cmd, lens->aperture_reach, virga_groups_of(VIRGA_LENS_APERTURE, GROUP),
                       virga_groups_of(VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0), GROUP));
-    virga_dispatch_2d(context, cmd, lens->tile[depth_layers(view)], view->tile_columns, view->tile_rows);
+    virga_dispatch_2d(context, cmd, lens->tile[lens_layer_form(lens, depth_layers(view))], view->tile_columns,
+                      view->tile_rows);
     virga_compute_barrier(context, cmd);
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);

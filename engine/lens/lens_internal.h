@@ -72,6 +72,12 @@ struct virga_lens {
 /* Fills the areas of an aperture's image on a grid of pixels, for the radii of shaders/lens/spread.glsl. */
 void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, float areas[VIRGA_LENS_SPREADS]);
 
+/* ---- lens.c */
+
+/* Which of the forms for 0 to VIRGA_LENS_LAYERS layers a pass has for so many: that one, but on GPUs from two layers on
+ * the last one, see FOR_LAYERS in shaders/lens/layers.glsl. */
+uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
+
 /* ---- lens_draw.c */
 enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAWS };
 extern const virga_effect_draw lens_draws[LENS_DRAWS];

@@ -48,8 +48,8 @@ void put(uint layer, inout composed sum)
     sum.color = over(layer_cut(layer, radius, cut, sum.near_px, sum.behind), sum.color);
 }
 
-// A pixel, from the fields of the scene there.
-void put_pixel(uvec2 at, vec4 behind, vec4 before)
+// The scene at a pixel, from its fields there.
+composed begin_pixel(uvec2 at, vec4 behind, vec4 before)
 {
     look_at(min(at, uvec2(view.width, view.height) - 1u));
     composed sum;
@@ -59,20 +59,32 @@ void put_pixel(uvec2 at, vec4 behind, vec4 before)
     sum.behind = true;
     if (sum.near_done)
         sum.color = over(sum.near, sum.color);
-    if (LAYERS > 0u)
-        put(0u, sum);
-    if (LAYERS > 1u)
-        put(1u, sum);
-    if (LAYERS > 2u)
-        put(2u, sum);
-    if (LAYERS > 3u)
-        put(3u, sum);
-    if (LAYERS > 4u)
-        put(4u, sum);
+    return sum;
+}
+
+void end_pixel(uvec2 at, composed sum)
+{
     if (!sum.near_done)
         sum.color = over(sum.near, sum.color);
     if (at.x < view.width && at.y < view.height)
         imageStore(picture, ivec2(at), sum.color);
+}
+
+void put_pixel(uvec2 at, vec4 behind, vec4 before)
+{
+    composed sum = begin_pixel(at, behind, before);
+#define PUT(layer) put(layer, sum)
+    FOR_LAYERS(PUT)
+    end_pixel(at, sum);
+}
+
+// With up to one layer. There are four of these in the code, and compilers take as long as there is code.
+void put_one_layer(uvec2 at, vec4 behind, vec4 before)
+{
+    composed sum = begin_pixel(at, behind, before);
+    if (LAYERS == 1u)
+        put(0u, sum);
+    end_pixel(at, sum);
 }
 
 // A field at the four pixels of a texel. Their centres are a quarter of a texel from its own.
@@ -128,10 +140,10 @@ void put_texel(ivec2 texel)
         behind = field_quad(texel, VIRGA_LENS_FAR);
     if (!NO_NEAR)
         before = field_quad(texel, VIRGA_LENS_NEAR);
-    put_pixel(at, behind.pixels[0], before.pixels[0]);
-    put_pixel(at + uvec2(1u, 0u), behind.pixels[1], before.pixels[1]);
-    put_pixel(at + uvec2(0u, 1u), behind.pixels[2], before.pixels[2]);
-    put_pixel(at + uvec2(1u, 1u), behind.pixels[3], before.pixels[3]);
+    put_one_layer(at, behind.pixels[0], before.pixels[0]);
+    put_one_layer(at + uvec2(1u, 0u), behind.pixels[1], before.pixels[1]);
+    put_one_layer(at + uvec2(0u, 1u), behind.pixels[2], before.pixels[2]);
+    put_one_layer(at + uvec2(1u, 1u), behind.pixels[3], before.pixels[3]);
 }
 
 void main()

@@ -1,6 +1,8 @@
 // layers.glsl - the layers over the scene: premultiplied color and coverage, and the depth of each pixel or of the
 // whole layer. The includer has pixels.glsl.
 // Where `layer` is a constant, one image is read. Software Vulkan reads all five otherwise.
+#include "gpu/variants.glsl"
+
 layout(set = 0, binding = 15) uniform sampler2D layer_color_0;
 layout(set = 0, binding = 16) uniform sampler2D layer_color_1;
 layout(set = 0, binding = 17) uniform sampler2D layer_color_2;
@@ -11,6 +13,25 @@ layout(set = 0, binding = 21) uniform sampler2D layer_depth_1;
 layout(set = 0, binding = 22) uniform sampler2D layer_depth_2;
 layout(set = 0, binding = 23) uniform sampler2D layer_depth_3;
 layout(set = 0, binding = 24) uniform sampler2D layer_depth_4;
+
+// Runs a statement for each layer. LAYERS, a constant of the includer, is their number; but on GPUs from the second on
+// it is the largest number, and this is a loop. A driver for GPUs takes seconds for all numbers.
+#define FOR_LAYERS(what)                                    \
+    if (FOR_GPU && LAYERS > 1u) {                           \
+        for (uint layer = 0u; layer < view.layers; layer++) \
+            what(layer);                                    \
+    } else {                                                \
+        if (LAYERS > 0u)                                    \
+            what(0u);                                       \
+        if (LAYERS > 1u)                                    \
+            what(1u);                                       \
+        if (LAYERS > 2u)                                    \
+            what(2u);                                       \
+        if (LAYERS > 3u)                                    \
+            what(3u);                                       \
+        if (LAYERS > 4u)                                    \
+            what(4u);                                       \
+    }
 
 vec4 layer_color(uint layer, ivec2 pixel)
 {

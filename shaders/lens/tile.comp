@@ -49,16 +49,8 @@ vec3 largest_at(ivec2 texel, inout uint levels)
     float layers = 0.0;
     if (abs(radius) > POINT)
         levels |= level_bit(radius < 0.0 ? 1u : 0u, level_of(radius));
-    if (LAYERS > 0u)
-        look_at_layer(0u, texel, layers, levels);
-    if (LAYERS > 1u)
-        look_at_layer(1u, texel, layers, levels);
-    if (LAYERS > 2u)
-        look_at_layer(2u, texel, layers, levels);
-    if (LAYERS > 3u)
-        look_at_layer(3u, texel, layers, levels);
-    if (LAYERS > 4u)
-        look_at_layer(4u, texel, layers, levels);
+#define LOOK(layer) look_at_layer(layer, texel, layers, levels)
+    FOR_LAYERS(LOOK)
     return vec3(max(-radius, 0.0), max(circles.farthest, 0.0), layers); // of a single pixel, too
 }
 

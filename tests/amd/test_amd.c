@@ -152,11 +152,12 @@ static virga_scene *open_scene(virga_context *context)
     return scene;
 }
 
-static virga_lens *open_lens(virga_context *context, uint32_t half_resolution)
+static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, uint32_t circles)
 {
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens;
     def.half_resolution = half_resolution;
+    def.circles = circles;
     assert_int_equal(virga_lens_create(context, &def, &lens), VIRGA_OK);
     return lens;
 }
@@ -194,7 +195,7 @@ static void compile_all(void)
 {
     virga_context *context = open_context();
     virga_scene *scene = open_scene(context);
-    virga_lens *lens[2] = {open_lens(context, 0), open_lens(context, 1)};
+    virga_lens *lens[2] = {open_lens(context, 0, 0), open_lens(context, 1, 0)}, *circles = open_lens(context, 0, 1);
     virga_fluid *fluid = open_fluid(context);
     virga_environment *environment = open_environment(context);
     virga_rain *plain = open_plain_rain(context);
@@ -213,6 +214,7 @@ static void compile_all(void)
     virga_rain_destroy(&plain);
     virga_environment_destroy(&environment);
     virga_fluid_destroy(&fluid);
+    virga_lens_destroy(&circles);
     virga_lens_destroy(&lens[0]);
     virga_lens_destroy(&lens[1]);
     virga_scene_destroy(&scene);
