@@ -17,7 +17,7 @@
 
 #include <virga/light.h>
 
-#define VIRGA_EFFECT_MAX_COUNTS   32
+#define VIRGA_EFFECT_MAX_COUNTS   40
 #define VIRGA_EFFECT_MAX_DEF      512   /* bytes */
 #define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes */
 #define VIRGA_EFFECT_MAX_DRAWS    40    /* pipelines of a target */

@@ -81,6 +81,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, surfel_difference, 0, 1000, 0.1, .look = true),
     SETTING(U32, surfel_divisions, 0, VIRGA_WATER_DIVISIONS, 3, .look = true),
     SETTING(FLOAT, soft_m, 0, 10, 0.002, .look = true),
+    SETTING(ENUM, contact, 0, VIRGA_WATER_CONTACT_PREPARE, VIRGA_WATER_CONTACT_DRAW, .look = true),
     SETTING(FLOAT, foam_coverage, 0, 1, 0.3, .look = true),
     SETTING(FLOAT, light_gain, 0, 1000, 1, .look = true),
 };
@@ -153,6 +154,8 @@ enum {
     COUNT_PYRAMID_ROWS,
     COUNT_COLUMNS,
     COUNT_ROWS,
+    COUNT_OPEN_TEXELS,
+    COUNT_TILE_WORDS,
     COUNT_VIEWS,
 };
 
@@ -165,6 +168,12 @@ static VkDeviceSize whole_groups(uint32_t items)
 static VkDeviceSize list_entries(uint32_t items)
 {
     return items ? (VkDeviceSize)items + sizeof(virga_list_gpu) / sizeof(uint32_t) : 0;
+}
+
+/* Rectangles of so many pixels that cover the images. */
+static VkDeviceSize squares(const virga_water_def *def, uint32_t width, uint32_t height)
+{
+    return (VkDeviceSize)((def->max_width + width - 1) / width) * ((def->max_height + height - 1) / height);
 }
 
 static void count_foam(const virga_water_def *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -206,6 +215,14 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
     counts[COUNT_COLUMNS] = def->max_width;
     counts[COUNT_ROWS] = def->max_height;
+    /* Bits of blocks that are listed and of those that are open, and the list. */
+    counts[COUNT_OPEN_TEXELS] = 2 * squares(def, VIRGA_WATER_BLOCK_PX * VIRGA_WATER_OPEN_COLUMNS,
+                                            VIRGA_WATER_BLOCK_PX * VIRGA_WATER_OPEN_ROWS) +
+                                (squares(def, VIRGA_WATER_BLOCK_PX, VIRGA_WATER_BLOCK_PX) + 3) / 4;
+    /* Tiles without contact lines, and tiles with them. */
+    counts[COUNT_TILE_WORDS] = def->max_width ? sizeof(virga_water_tiles_gpu) / sizeof(uint32_t) +
+                                                    2 * squares(def, VIRGA_WATER_TILE_PX, VIRGA_WATER_TILE_PX)
+                                              : 0;
     counts[COUNT_VIEWS] = WATER_MAX_VIEWS;
 }
 
@@ -251,6 +268,9 @@ static const virga_effect_buffer buffers[] = {
     {"water.prepared", AT(picture.prepared), VIRGA_USE_INDIRECT, DEVICE, .entry = sizeof(virga_water_prepared_gpu),
      .count = COUNT_DRAWN},
     {"water.pyramid", AT(picture.pyramid), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PYRAMID},
+    {"water.open_blocks", AT(picture.open_blocks), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_OPEN_TEXELS},
+    {"water.tiles", AT(picture.tiles), VIRGA_USE_INDIRECT, DEVICE, .entry = 4, .count = COUNT_TILE_WORDS,
+     .per_view = true},
     {"water.foam_selection", AT(foam.selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1,
      .count = COUNT_FOAM_SELECTION_BYTES},
     {"water.foam_slots", AT(foam.slots), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_FOAM_ENTRIES},
@@ -411,6 +431,8 @@ static const virga_effect_pass passes[] = {
     PICTURE(splat_compact),
     PICTURE(splat_write),
     PICTURE(splat_gaps),
+    PICTURE(splat_close),
+    PICTURE(contact_tiles),
     PICTURE(divide_mark),
     PICTURE(divide_scan),
     PICTURE(divide_write),

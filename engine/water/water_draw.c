@@ -38,7 +38,7 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     TEXEL_BUFFER(grid.sorted),                                               /* 12 */
     STORAGE_IMAGE(picture.thickness),                                        /* 13 */
     [BIND_SUMS] = {SAMPLED, FRAGMENT | COMPUTE},                             /* 14 */
-    [BIND_MOTION] = {SAMPLED, FRAGMENT},                                     /* 15 */
+    [BIND_MOTION] = {SAMPLED, FRAGMENT | COMPUTE},                           /* 15 */
     [BIND_THICKNESS] = SAMPLED_IMAGE(FRAGMENT | COMPUTE, picture.thickness), /* 16 */
     [BIND_DEPTH] = {SAMPLED, FRAGMENT | COMPUTE},                            /* 17 */
     [BIND_COLOR] = {SAMPLED, FRAGMENT | COMPUTE},                            /* 18 */
@@ -53,6 +53,9 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     [BIND_COLORS] = {SAMPLED, FRAGMENT},                                     /* 27 */
     STORAGE_IMAGE(picture.gaps),                                             /* 28 */
     SAMPLED_IMAGE(FRAGMENT, picture.gaps),                                   /* 29 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.open_blocks),                        /* 30 */
+    TEXEL_BUFFER_IN(VERTEX, picture.open_blocks),                            /* 31 */
+    BUFFER_IN(COMPUTE | VERTEX, picture.tiles),                              /* 32 */
 };
 
 /* ---- prepare */
@@ -144,6 +147,8 @@ static void record_clear(virga_water *water, VkCommandBuffer cmd)
                VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES);
     context->vk.CmdFillBuffer(cmd, picture->prepared->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, picture->pyramid->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, picture->open_blocks->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, sizeof(virga_water_tiles_gpu), 0);
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
@@ -225,13 +230,45 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
     const sums_passes passes = {picture->sums, picture->splat_depth, picture->splat_sum, picture->splat_behind, 0};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.splats");
     record_sums(water, cmd, set, look, &passes);
-    virga_dispatch_2d(context, cmd, picture->splat_gaps, (look->width + 7) / 8, (look->height + 7) / 8);
-    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_FRAGMENTS);
+    const uint32_t px = VIRGA_WATER_BLOCK_PX;
+    virga_dispatch_2d(context, cmd, picture->splat_gaps, (look->width + px - 1) / px, (look->height + px - 1) / px);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_ARGUMENTS);
+    virga_dispatch_indirect(context, cmd, picture->splat_close, picture->prepared->buffer,
+                            offsetof(virga_water_prepared_gpu, block_groups));
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES | VIRGA_FRAGMENTS);
     record_behind(water, cmd, set, look, &passes);
     virga_pass_end(context, cmd, scope);
 }
 
-/* Light by surfels. The host's barriers may cover only fragment shaders, so this adds one for compute. */
+/* The host's barriers may cover only fragment shaders, so this adds one for compute. */
+static void wait_for_host(virga_water *water, VkCommandBuffer cmd, VkPipelineStageFlags stages)
+{
+    virga_barrier(water->base.context, cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | stages, 0,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+}
+
+/* On a GPU a draw pays for contact lines only where they are. Larger views than the effect's images have no tiles. */
+static bool has_tiles(const virga_water *water, const virga_view *view, const virga_water_look_gpu *look)
+{
+    return water->base.context->for_software && water->settings.contact == VIRGA_WATER_CONTACT_PREPARE &&
+           view->depth.view && look->scale >= 1;
+}
+
+static void record_tiles(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_view *view,
+                         const virga_water_look_gpu *look)
+{
+    virga_context *context = water->base.context;
+    const uint32_t px = VIRGA_WATER_TILE_PX * VIRGA_WATER_WIDE_TILES;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.tiles");
+    wait_for_host(water, cmd, view->depth.before.stage);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, water->picture.view_offset);
+    virga_dispatch_2d(context, cmd, water->picture.contact_tiles, (look->width + px - 1) / px,
+                      (look->height + px - 1) / px);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_VERTICES);
+    virga_pass_end(context, cmd, scope);
+}
+
+/* Light by surfels. */
 static void record_parts(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set, const virga_water_look_gpu *look,
                          const virga_view *view)
 {
@@ -239,10 +276,8 @@ static void record_parts(virga_water *water, VkCommandBuffer cmd, VkDescriptorSe
     const water_picture *picture = &water->picture;
     const sums_passes passes = {picture->colors, picture->part_depth, picture->part_sum, picture->part_behind,
                                 offsetof(virga_water_prepared_gpu, part_vertices)};
-    const VkPipelineStageFlags color = view->color.view ? view->color.before.stage : 0;
     virga_pass_scope scope = virga_pass_begin(context, cmd, "water.divide");
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | color, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT);
+    wait_for_host(water, cmd, view->color.view ? view->color.before.stage : 0);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, picture->view_offset);
     over(water, cmd, picture->divide_mark, picture->list, 0);
     virga_dispatch_and_barrier(context, cmd, picture->divide_scan, 1);
@@ -265,6 +300,16 @@ static void record_foam(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet
                             offsetof(virga_water_state_gpu, foam_groups));
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
     virga_pass_end(context, cmd, scope);
+}
+
+/* The VIRGA_WATER_LOOK_... bits of a view. */
+static uint32_t look_of(const virga_water *water, const virga_view *view, const virga_water_look_gpu *look,
+                        bool by_surfels)
+{
+    const bool contact = view->depth.view && !by_surfels && water->settings.contact != VIRGA_WATER_CONTACT_OFF;
+    return (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
+           (look->scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0) | (contact ? VIRGA_WATER_LOOK_CONTACT : 0) |
+           (by_surfels ? VIRGA_WATER_LOOK_SURFELS : 0);
 }
 
 virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view)
@@ -302,21 +347,25 @@ virga_result virga_water_prepare_view(virga_water *water, VkCommandBuffer cmd, c
     record_volumes(water, cmd, &block.look);
     record_list(water, cmd);
     record_splats(water, cmd, set, &block.look);
+    const bool tiled = !by_surfels && has_tiles(water, view, &block.look);
     if (by_surfels)
         record_parts(water, cmd, set, &block.look, view);
+    if (tiled)
+        record_tiles(water, cmd, set, view, &block.look);
     virga_effect_set_view(&water->base, set, picture->view_offset, view, prepared);
     if (water_has_foam(water))
         record_foam(water, cmd, set);
-    picture->look[water->base.slot] =
-        (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
-        (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0) | (by_surfels ? VIRGA_WATER_LOOK_SURFELS : 0);
+    picture->look[water->base.slot] = look_of(water, view, &block.look, by_surfels);
+    picture->tiled[water->base.slot] = tiled;
     return virga_recording_result(context);
 }
 
 /* ---- draw */
 
-#define LOOKS 8
-static const uint32_t looks[LOOKS] = {0, 1, 2, 3, 4, 5, 6, 7};
+/* Without contact lines, then with them and so with depth. */
+#define LOOKS 12
+#define PLAIN 8
+static const uint32_t looks[LOOKS] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 11, 13, 15};
 
 const virga_effect_draw water_draws[WATER_DRAWS] = {
     {"water.draw", VIRGA_VERTEX_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, LOOKS},
@@ -338,7 +387,14 @@ virga_result virga_water_attach(virga_water *water, const virga_target *target)
 /* The pipelines of a target: those of water and of foam by looks, that of data, and those of light by surfels. */
 static uint32_t draw_of_water(uint32_t look)
 {
-    return look & VIRGA_WATER_LOOK_SURFELS ? LOOKS + 3 + (look & VIRGA_WATER_LOOK_DEPTH) : look;
+    if (look & VIRGA_WATER_LOOK_SURFELS)
+        return LOOKS + 3 + (look & VIRGA_WATER_LOOK_DEPTH);
+    return look & VIRGA_WATER_LOOK_CONTACT ? PLAIN + (look - VIRGA_WATER_LOOK_CONTACT) / 2 : look;
+}
+
+static uint32_t draw_of_plain(uint32_t look)
+{
+    return draw_of_water(look & ~VIRGA_WATER_LOOK_CONTACT);
 }
 
 static uint32_t draw_of_foam(uint32_t look)
@@ -352,6 +408,13 @@ static uint32_t draw_of_data(uint32_t look)
     return LOOKS + 2;
 }
 
+static void draw_tiles(virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline, VkDeviceSize arguments)
+{
+    virga_context *context = water->base.context;
+    if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline))
+        context->vk.CmdDrawIndirect(cmd, water->picture.tiles->buffer, arguments, 1, 0);
+}
+
 /* Begins a draw with one of a target's pipelines: the one of a row that fits the view. */
 static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target,
                                virga_prepared prepared, const char *call, uint32_t (*draw_of)(uint32_t look),
@@ -363,8 +426,10 @@ static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const vi
     virga_result result = virga_effect_check_draw(&water->base, call, cmd, target, prepared, stepped, &found);
     if (result)
         return result;
-    const virga_pipeline *used = found->draws[draw_of(water->picture.look[water->base.slot])];
-    result = virga_pipelines_ready(&used, 1);
+    const uint32_t look = water->picture.look[water->base.slot];
+    const bool tiled = draw_of == draw_of_water && water->picture.tiled[water->base.slot];
+    const virga_pipeline *const used[] = {found->draws[draw_of(look)], found->draws[draw_of_plain(look)]};
+    result = virga_pipelines_ready(used, tiled ? 2 : 1);
     if (result)
         return result;
     *scope = virga_draw_begin(context, cmd,
@@ -374,7 +439,9 @@ static virga_result begin_draw(virga_water *water, VkCommandBuffer cmd, const vi
     const virga_effect_view *view = virga_effect_selected(&water->base);
     virga_set_draw_area(context, cmd, view->viewport);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, view->set, view->offset);
-    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used);
+    if (tiled) /* the caller draws those with contact lines */
+        draw_tiles(water, cmd, used[1], offsetof(virga_water_tiles_gpu, plain_vertices));
+    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used[0]);
     return VIRGA_OK;
 }
 
@@ -385,7 +452,11 @@ virga_result water_draw(virga_water *water, VkCommandBuffer cmd, const virga_tar
     const virga_result result = begin_draw(water, cmd, target, prepared, call, draw_of_water, &scope);
     if (result)
         return result;
-    water->base.context->vk.CmdDraw(cmd, 3, 1, 0, 0);
+    if (water->picture.tiled[water->base.slot])
+        water->base.context->vk.CmdDrawIndirect(cmd, water->picture.tiles->buffer,
+                                                offsetof(virga_water_tiles_gpu, contact_vertices), 1, 0);
+    else
+        water->base.context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(water->base.context, cmd, scope);
     return VIRGA_OK;
 }

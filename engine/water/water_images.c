@@ -73,6 +73,7 @@ static virga_result create_pipelines(virga_water *water, const water_sums *sums)
     TRY(virga_graphics_pipeline_create(context, &def, sums->sum_pipeline));
     def.fragment = sums->behind;
     def.reversed_depth = false; /* what the sums leave out */
+    def.constant = 2;
     def.name = sums->behind_name;
     TRY(virga_graphics_pipeline_create(context, &def, sums->behind_pipeline));
 error:

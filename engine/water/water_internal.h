@@ -45,7 +45,7 @@ enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17 };
 
 #define WATER_KERNELS       2 /* virga_water_kernel */
 #define WATER_MAX_VIEWS     8 /* prepares in a frame */
-#define WATER_DRAW_BINDINGS 30
+#define WATER_DRAW_BINDINGS 33
 #define WATER_DRAWS         4
 
 /* The uniforms of a view. */
@@ -63,16 +63,20 @@ typedef struct water_picture {
     VIRGA_PER_VIEW(virga_image_2d, thickness);
     VIRGA_PER_VIEW(virga_buffer, foam_splats);
     VIRGA_PER_VIEW(virga_image_2d, gaps);      /* what the nearest water leaves open, see splat_gaps.comp */
+    virga_buffer *open_blocks;                 /* see gap_blocks.glsl */
+    VIRGA_PER_VIEW(virga_buffer, tiles);       /* see contact_tiles.comp */
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest block */
     virga_bindings *bindings;
-    virga_pipeline *splat_mark, *splat_scan, *splat_compact, *splat_write, *splat_gaps, *volume, *volume_merge, *foam;
-    virga_pipeline *divide_mark, *divide_scan, *divide_write;
+    virga_pipeline *splat_mark, *splat_scan, *splat_compact, *splat_write, *splat_gaps, *splat_close, *volume,
+        *volume_merge, *foam;
+    virga_pipeline *divide_mark, *divide_scan, *divide_write, *contact_tiles;
     virga_pipeline *splat_depth, *splat_sum, *splat_behind, *part_depth, *part_sum, *part_behind;
     virga_image panorama;
     uint32_t volume_first[VIRGA_WATER_VOLUME_LEVELS];
     uint32_t look[VIRGA_MAX_VIEWS]; /* VIRGA_WATER_LOOK_... bits, by index of the view */
+    bool tiled[VIRGA_MAX_VIEWS];    /* it is drawn in tiles */
 } water_picture;
 
 /* The spray. */

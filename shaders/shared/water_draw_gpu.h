@@ -8,17 +8,24 @@
 #define uint virga_uint
 typedef struct virga_water_look_gpu virga_water_look_gpu;
 typedef struct virga_water_prepared_gpu virga_water_prepared_gpu;
+typedef struct virga_water_tiles_gpu virga_water_tiles_gpu;
 #endif
 
-#define VIRGA_WATER_SURFEL_STEPS  1.2f   /* radius of a surfel, in steps of the grid that surfels are made on */
-#define VIRGA_WATER_SPLAT_TEXELS  3      /* texels of a splat, see splat_write.comp */
-#define VIRGA_WATER_VOLUME_LEVELS 8      /* of the pyramid that the thickness is summed up in */
-#define VIRGA_WATER_VOLUME_PX     4      /* side of a texel of its finest level; each coarser one has twice as much */
-#define VIRGA_WATER_VOLUME_UNITS  16e6f  /* units of its sums in a metre of thickness */
-#define VIRGA_WATER_LOOK_DEPTH    1u     /* bits of a draw's specialisation constant: the view has depth */
-#define VIRGA_WATER_LOOK_COLOR    2u     /* it has color */
-#define VIRGA_WATER_LOOK_SCALED   4u     /* the effect's images have other pixels than the target */
-#define VIRGA_WATER_LOOK_SURFELS  8u     /* light is computed for surfels, not for pixels */
+#define VIRGA_WATER_SURFEL_STEPS  1.2f  /* radius of a surfel, in steps of the grid that surfels are made on */
+#define VIRGA_WATER_SPLAT_TEXELS  3     /* texels of a splat, see splat_write.comp */
+#define VIRGA_WATER_VOLUME_LEVELS 8     /* of the pyramid that the thickness is summed up in */
+#define VIRGA_WATER_VOLUME_PX     4     /* side of a texel of its finest level; each coarser one has twice as much */
+#define VIRGA_WATER_VOLUME_UNITS  16e6f /* units of its sums in a metre of thickness */
+#define VIRGA_WATER_LOOK_DEPTH    1u    /* bits of a draw's specialisation constant: the view has depth */
+#define VIRGA_WATER_LOOK_COLOR    2u    /* it has color */
+#define VIRGA_WATER_LOOK_SCALED   4u    /* the effect's images have other pixels than the target */
+#define VIRGA_WATER_LOOK_CONTACT  8u    /* the surface goes on to solids. Only with VIRGA_WATER_LOOK_DEPTH */
+#define VIRGA_WATER_LOOK_SURFELS  16u   /* light is computed for surfels, not for pixels */
+#define VIRGA_WATER_TILE_PX       16    /* side of a tile, see contact_tiles.comp */
+#define VIRGA_WATER_WIDE_TILES    4     /* tiles along each side of a wide one */
+#define VIRGA_WATER_BLOCK_PX      8     /* side of a block of pixels, see gap_blocks.glsl */
+#define VIRGA_WATER_OPEN_COLUMNS  16    /* blocks in a texel of the picture of open blocks */
+#define VIRGA_WATER_OPEN_ROWS     8
 #define VIRGA_WATER_DIVISIONS     3u     /* a surfel is divided so often at most */
 #define VIRGA_WATER_PART_TEXELS   4      /* texels of a part of a surfel, see divide_write.comp */
 #define VIRGA_WATER_PART_OFFSET   0.306f /* of a part's center along each axis, in radii of what is divided */
@@ -67,12 +74,26 @@ struct virga_water_prepared_gpu {
     uint part_instances;
     uint part_first_vertex;
     uint part_first_instance;
-    uint parts_added; /* by all divisions for which there was room */
+    uint parts_added;     /* by all divisions for which there was room */
+    uint block_groups[3]; /* indirect arguments: a workgroup for each block of pixels that is listed */
+};
+
+/* Where the picture is drawn: indirect arguments of two draws. Their vertices are those of a list of tiles each. */
+struct virga_water_tiles_gpu {
+    uint plain_vertices; /* without contact lines */
+    uint plain_instances;
+    uint plain_first_vertex;
+    uint plain_first_instance;
+    uint contact_vertices; /* with them */
+    uint contact_instances;
+    uint contact_first_vertex;
+    uint contact_first_instance;
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_look_gpu, 168);
-VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 52);
+VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 64);
+VIRGA_ASSERT_SIZE(virga_water_tiles_gpu, 32);
 #undef uint
 #endif
 

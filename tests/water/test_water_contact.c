@@ -143,6 +143,57 @@ static void the_border_of_a_thin_layer_is_a_wedge(void **state)
     REQUIRE(border < middle / 3);
 }
 
+static void draw_with(shot *of, uint32_t contact, float *pixels)
+{
+    of->f.settings.contact = (virga_water_contact)contact;
+    shot_draw(of);
+    memcpy(pixels, of->pixels, (size_t)of->width * of->height * 16);
+}
+
+/* How many pixels differ. */
+static uint32_t differences(const shot *of, const float *one, const float *other)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < (size_t)of->width * of->height; i++)
+        count += memcmp(one + 4 * i, other + 4 * i, 16) != 0;
+    return count;
+}
+
+/* Water in a corner, a thin layer beside it, and drops: tiles of all kinds, some of them cut off by the edge. */
+static void tiles_change_no_pixel(void **state)
+{
+    (void)state;
+    static const double eyes[3][3] = {{0.35, 0.8, 0.1}, {1.0, 1.0, 0.6}, {0.3, 0.32, 0.5}};
+    shot o;
+    shot_open(&o, 203, 131);
+    o.scene = room;
+    o.f.settings = s.f.settings;
+    o.f.count = 0;
+    water_fixture_box(&o.f, (const double[3]){WALL_X + 0.5 * D, 0.5 * D, -0.3}, (const uint32_t[3]){16, 14, 20}, D, 0);
+    water_fixture_box(&o.f, (const double[3]){WALL_X + 22 * D, 0.5 * D, -0.2}, (const uint32_t[3]){12, 1, 12}, D, 0);
+    for (int i = 0; i < 8; i++)
+        water_fixture_add(&o.f, 0.05 * i, 0.2 + 0.02 * i, 0.1);
+    float *pixels[3];
+    for (int i = 0; i < 3; i++)
+        REQUIRE((pixels[i] = malloc((size_t)o.width * o.height * 16)));
+    for (int i = 0; i < 6; i++) {
+        o.reversed = i >= 3;
+        shot_aim(&o, eyes[i % 3], (const double[3]){WALL_X + 0.2, 0.08, -0.1});
+        for (uint32_t contact = 0; contact < 3; contact++)
+            draw_with(&o, contact, pixels[contact]);
+        shot_save(&o, (const char *[3]){"tiles0", "tiles1", "tiles2"}[i % 3]);
+        const float *drawn = pixels[VIRGA_WATER_CONTACT_DRAW];
+        const uint32_t anew = differences(&o, drawn, pixels[VIRGA_WATER_CONTACT_OFF]);
+        const uint32_t wrong = differences(&o, drawn, pixels[VIRGA_WATER_CONTACT_PREPARE]);
+        printf("%u pixels have contact lines; with tiles %u pixels differ\n", anew, wrong);
+        REQUIRE(anew > 200);
+        REQUIRE(wrong == 0);
+    }
+    for (int i = 0; i < 3; i++)
+        free(pixels[i]);
+    shot_close(&o);
+}
+
 int main(void)
 {
     shot_open(&s, SIDE, SIDE);
@@ -150,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_meets_a_wall_at_the_height_of_a_meniscus),
         cmocka_unit_test(the_border_of_a_thin_layer_is_a_wedge),
+        cmocka_unit_test(tiles_change_no_pixel),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     shot_close(&s);

@@ -82,6 +82,7 @@ static const scene_row water_rows[] = {
            "(surfels) one whose colors differ by this part of their mean is divided: C_a"),
     WHOLE(scene_water, surfel_divisions, 0, 3, "3", LIVE, "(surfels) how often one is divided at most; 0: never"),
     NUMBER(scene_water, soft_m, 0, 10, "0.002", LIVE, "water fades over this depth where it meets geometry"),
+    SWITCH(scene_water, contact, "true", LIVE, "the surface goes on to solids, with a meniscus; slower"),
     NUMBER(scene_water, light_gain, 0, 1000, "1", LIVE, "multiplies the light of lamps on the water"),
     WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: as many as there are"),
     WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the water"),
@@ -290,6 +291,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.refraction = (float)from->refraction;
     settings.surfel_radius = (float)from->surfel_radius;
     settings.soft_m = (float)from->soft_m;
+    settings.contact = from->contact ? VIRGA_WATER_CONTACT_PREPARE : VIRGA_WATER_CONTACT_OFF; /* after the plate */
     settings.light_gain = (float)from->light_gain;
     settings.lighting = s->lighting;
     return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);

@@ -100,6 +100,7 @@ typedef struct scene_water {
     uint32_t max_foam;
     double absorption_1_m[3], scattering_1_m[3];
     double reflection, refraction, surfel_radius, soft_m, light_gain;
+    bool contact;
     uint32_t max_particles, max_cells, max_blocks, max_surfels; /* 0: by the particles */
 } scene_water;
 

@@ -131,6 +131,22 @@ typedef enum virga_water_shading {
     VIRGA_WATER_SHADING_SURFELS = 1,
 } virga_water_shading;
 
+/* Whether the surface meets solids at a contact line, see virga_water_draw. It needs virga_view.depth. */
+typedef enum virga_water_contact {
+    /* It ends where its particles do, half a spacing before a solid. */
+    VIRGA_WATER_CONTACT_OFF = 0,
+
+    /* The draw looks for contact lines in each pixel. A GPU takes the branch only near solids; software Vulkan executes
+     * it everywhere, so that the draw takes about twice as long. */
+    VIRGA_WATER_CONTACT_DRAW = 1,
+
+    /* virga_water_prepare reads virga_view.depth: the opaque scene must be drawn before it. The picture is the same. On
+     * software Vulkan, if the view is not larger than max_width x max_height, the draw then leaves out tiles of 16 x 16
+     * pixels without water, and looks for contact lines only in those that may have them. On a GPU it is as
+     * VIRGA_WATER_CONTACT_DRAW. */
+    VIRGA_WATER_CONTACT_PREPARE = 2,
+} virga_water_contact;
+
 typedef struct virga_water_settings {
     uint32_t size, cookie;
 
@@ -278,6 +294,9 @@ typedef struct virga_water_settings {
      * contact line (see virga_water_draw) it is at most half a pixel. Default 0.002. */
     float soft_m;
 
+    /* Default VIRGA_WATER_CONTACT_DRAW. */
+    virga_water_contact contact;
+
     /* [0; 1] how much of what is behind it a particle of foam covers in its middle. Default 0.3. */
     float foam_coverage;
 
@@ -367,7 +386,8 @@ VIRGA_API virga_result virga_water_environment(virga_water *water, const virga_i
  * The water is drawn where the particles of the step are.
  *
  * VIRGA_NOT_READY: no step in this frame, no max_width, or pipelines are missing; nothing is recorded.
- * Costs two draws of each surfel that faces the camera, and nine atomic additions for each particle. With
+ * Costs two draws of each surfel that faces the camera, a third of those that lie over gaps in what is in front of
+ * them, and nine atomic additions for each particle. With VIRGA_WATER_CONTACT_PREPARE, see there. With
  * VIRGA_WATER_SHADING_SURFELS, also a draw of each surfel and of each part, and four to eight colors for each part. */
 VIRGA_API virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view);
 
@@ -380,10 +400,10 @@ VIRGA_API virga_result virga_water_prepare_view(virga_water *water, VkCommandBuf
  * through the water is refracted; without it, the environment is seen through the water. With virga_view.depth, the ray
  * in the water ends at the scene. The camera must be outside the water: its surface seen from below is not drawn.
  *
- * Contact line: particles end half a spacing before a solid. With virga_view.depth the surface goes on to the solid
- * that the depth shows, with the meniscus of a contact angle of 20 degrees, and a thin layer ends in a wedge. Not where
- * a spacing is smaller than two pixels, nor with VIRGA_WATER_SHADING_SURFELS. A gap behind a surface that is seen at
- * less than 15 to 30 degrees stays: little of it is seen.
+ * Contact line (virga_water_settings.contact): particles end half a spacing before a solid. With virga_view.depth the
+ * surface goes on to the solid that the depth shows, with the meniscus of a contact angle of 20 degrees, and a thin
+ * layer ends in a wedge. Not where a spacing is smaller than two pixels, nor with VIRGA_WATER_SHADING_SURFELS. A gap
+ * behind a surface that is seen at less than 15 to 30 degrees stays: little of it is seen.
  *
  * VIRGA_NOT_READY, logged once: the target is not attached, or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target);

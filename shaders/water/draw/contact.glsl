@@ -5,6 +5,7 @@
 // water is farther from it, at REACH, its surface goes on as a plane up to the solid, with the meniscus that surface
 // tension makes. Where there is none it is a thin layer: its border is a wedge.
 // The includer has surface.glsl, and pixel_of.
+#include "contact_limits.glsl"
 
 #define REACH         2.0    // spacings
 #define GAP           0.8    // spacings: the widest gap between the surface and a solid
@@ -13,8 +14,6 @@
 #define GRAZING       0.15   // cosine: surfaces that are seen from aside hide the gap behind them
 #define CAPILLARY_M   0.0027 // sqrt(tension / (density gravity)) of water
 #define CONTACT_RAD   0.35   // angle of water on stone, wood and glass that are not clean
-#define MIN_PX        2.0    // of a spacing: nothing smaller is drawn anew
-#define FAR_SPACINGS  8.0    // along the ray, to the scene: farther solids are not beside the surface
 #define STEEPEST      0.75   // cosine between surface and solid: with more it is a thin layer or a film
 
 struct Water {

@@ -1,13 +1,15 @@
 // splat.vert - a triangle around the ellipse of a splat, in the plane of its surfel.
-// One invocation per corner of a splat. Reads: splats. Writes: the position in the ellipse, in radii.
+// One invocation per corner of a splat. Reads: splats, open blocks. Writes: the position in the ellipse, in radii.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "gpu/texels.glsl"
 TEXELS(splat_texel, 7, 6)
+#include "is_open.glsl"
 
-layout(constant_id = 0) const bool DEPTH_ONLY = false; // the first of the two passes
+layout(constant_id = 0) const uint PASS = 0u; // 0: sums, 1: the depth before them, 2: what is behind
+#define DEPTH_ONLY (PASS == 1u)
 
 layout(location = 0) out vec2 position;
 layout(location = 1) flat out vec3 facing_weight;
@@ -29,7 +31,8 @@ void main()
     facing_weight = vec3(unpack_facing(one.w), weight);
     motion = unpackHalf2x16(three.w);
     // Depth is NEAR_W / w. Moving the splat away from the eye, by a factor, divides its depth by this factor.
-    if (DEPTH_ONLY && scale == 0.0) { // hides nothing
+    // Hides nothing, or fills nothing.
+    if ((DEPTH_ONLY && scale == 0.0) || (PASS == 2u && (weight < 0.0 || !is_over_open(center, first, second)))) {
         gl_Position = DRAWN_NOWHERE;
         return;
     }

@@ -8,6 +8,7 @@
 layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
 #define HAS_DEPTH ((LOOK & VIRGA_WATER_LOOK_DEPTH) != 0u)
 #define HAS_COLOR ((LOOK & VIRGA_WATER_LOOK_COLOR) != 0u)
+#define HAS_CONTACT ((LOOK & VIRGA_WATER_LOOK_CONTACT) != 0u)
 #define SCALED ((LOOK & VIRGA_WATER_LOOK_SCALED) != 0u)
 #define SCENE_DEPTH_BINDING 17
 #include "gpu/scene_depth.glsl"
@@ -31,7 +32,7 @@ void main()
     Water water = Water(at, sums.z / max(sums.w, 1e-12), normal_of(sums.xy / max(sums.w, 1e-12)), 0.0, false);
     const vec3 bend_x = dFdx(water.normal), bend_y = dFdy(water.normal);
     water.covered = covered_at(at, sums, moved.z);
-    if (HAS_DEPTH)
+    if (HAS_CONTACT)
         water = with_contact(water, ray);
     const float depth = water.depth;
     float covered = water.covered;

@@ -32,8 +32,8 @@ static const struct pass {
               {"water.spray", SPRAY_AND_FOAM}, {"water.spray_surfels", SPRAY_AND_FOAM},
               {"water.foam", SPRAY_AND_FOAM},  {"water.thickness", DRAWN},
               {"water.visible", DRAWN},        {"water.splats", DRAWN},
-              {"water.foam_light", DRAWN},     {"water.divide", BY_SURFELS},
-              {"water.parts", BY_SURFELS}};
+              {"water.tiles", DRAWN},          {"water.foam_light", DRAWN},
+              {"water.divide", BY_SURFELS},    {"water.parts", BY_SURFELS}};
 static const char *const sums[SUMS] = {"density, surface, normals", "spray and foam", "the picture from them",
                                        "light by surfels, added"};
 
@@ -108,6 +108,7 @@ static bool make_water(bench *b, pool *p)
     host_target_describe_layer(&b->targets[PICTURE], &layer);
     virga_water_settings *settings = &p->settings;
     *settings = virga_default_water_settings();
+    settings->contact = VIRGA_WATER_CONTACT_PREPARE;
     settings->spacing_m = 1.0f / (float)p->row->side;
     settings->lighting.environment_sh[0][0] = settings->lighting.environment_sh[0][1] = 1;
     settings->lighting.environment_sh[0][2] = settings->lighting.environment_sh[1][2] = 1;
