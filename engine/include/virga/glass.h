@@ -593,7 +593,7 @@ typedef struct virga_glass_step_info {
      * ln(L)), with the receding contact angle t and ln(L) = 15, the contact line keeps up with the water and the glass
      * stays dry (de Gennes 1986): on the paper's glass below 9 cm/s, on coated glass below 1.5 m/s.
      * Once film_break_s has passed, the film breaks into drops, of what is on squares of 4 to 16 mm (at least 1 to 4
-     * cells); an eighth stays as fine drops.
+     * cells); a twentieth stays as fine drops.
      *
      * The simulation neither gives this water nor gets that which joins it; both are counted, in
      * virga_glass_stats.touched_nl and joined_nl. VK_NULL_HANDLE: there is none. A step with 0 ticks does not read

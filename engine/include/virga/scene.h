@@ -184,7 +184,8 @@ typedef struct virga_scene_frame {
 
     /* (optional) The ground's water in the region of that solver's step becomes particles of the next one, and
      * particles at rest become water of the ground again, see virga_fluid_exchange_get. The ground then gets no film
-     * from the particles that touch it, as all water is counted. Not used in a scene without ground. */
+     * from the particles that touch it, as all water is counted; panes get theirs as without it. Not used in a scene
+     * without ground. */
     virga_scene_exchange exchange;
 
     /* (optional) What rolls and walks over the ground, where it is at the end of the frame: at most

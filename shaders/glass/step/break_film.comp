@@ -14,7 +14,7 @@ layout(local_size_x = VIRGA_GLASS_SMALL_GROUP) in;
 
 #define LARGE 0.3  // share of the largest squares that are one site
 #define MIDDLE 0.5 // share of the squares of half their side, among the others
-#define STAYS 8u   // one in so many parts of the film stays
+#define STAYS 20u  // one in so many parts of the film stays
 // When it breaks, in units of the mean time of the picture's sheets: while it still shows as one.
 #define SOONEST 0.35
 #define LATEST 0.65
