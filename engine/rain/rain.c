@@ -63,7 +63,16 @@ static const virga_setting_row setting_rows[] = {
     RAIN(FLOAT, streak_group_mm, 0.2, 100, 100, .look = true),
     RAIN(U32, default_material, 0, 255, 0),
     RAIN(U32, occlusion_interval, 1, 16, 1),
+    RAIN(BOOL, walls.on, false, true, true),
+    RAIN(FLOAT, walls.share, 0, 2, 0.5),
+    RAIN(FLOAT, walls.evaporation_mm_h, 0, 100, 0.2),
+    RAIN(FLOAT, walls.start_h, 0, 240, 0),
 };
+
+static void fill_settings(void *settings)
+{
+    rain_walls_default(((virga_rain_settings *)settings)->walls.materials);
+}
 
 /* ---- the sizes that follow from a definition */
 
@@ -253,9 +262,10 @@ static uint32_t pass_constant(const void *object)
 static virga_result check_settings(const void *object, void *given, bool *changed)
 {
     const virga_rain *rain = object;
-    const virga_rain_settings *settings = given;
+    virga_rain_settings *settings = given;
     const virga_log *log = &rain->base.context->log;
-    (void)changed;
+    if (rain_walls_check(log, settings->walls.materials, changed))
+        return VIRGA_ERROR_INVALID;
     if (settings->wind_texture && (!rain->def.wind_texture || !settings->wind_texture->view))
         return virga_wrong_argument(log, "rain.wind_texture: expected def.wind_texture at creation and an image view");
     const virga_result result = virga_settings_check_positions(log, "rain.wind_min_m", settings->wind_min_m, 3);
@@ -335,6 +345,7 @@ static const virga_effect_state_row state_rows[] = {
     {"classes", AT(classes), sizeof(rain_classes), .pointed = true},
     STATE(wind),
     STATE(wind_now),
+    STATE(walls),
     STATE(ticks),
     STATE(ticks_of_step),
     STATE(left_over_s),
@@ -355,6 +366,7 @@ const virga_effect_type rain_type = {
     VIRGA_EFFECT_TYPE(rain, "rain", "rain"),
     VIRGA_EFFECT_DRAWS(rain),
     VIRGA_CALLBACKS(extra_bytes, init, create, destroy, pass_constant, check_settings, apply_settings, prepare),
+    .fill_settings = fill_settings,
     .lost = rain_lost,
     VIRGA_TABLE(state_row),
     .check_state = rain_check_state,

@@ -3,6 +3,7 @@
  *   rain.c              create, destroy, settings
  *   classes.c           size classes: their slots, weights and motion
  *   wind.c              the uniform wind with its gusts
+ *   walls.c             water on upright surfaces
  *   rain_descriptors.c  the bindings of all passes
  *   rain_frame.c        what the first call of a frame records
  *   rain_step.c         ticks and impacts
@@ -83,6 +84,33 @@ typedef struct rain_wind {
 void rain_wind_tick(rain_wind *wind, double tick_s, double gust_time_s);
 void rain_wind_at(const rain_wind *wind, const virga_rain_settings *settings, uint32_t seed, double velocity[3]);
 
+/* ---- walls.c */
+
+enum { RAIN_WALL_FELL, RAIN_WALL_DRIED, RAIN_WALL_SUNK, RAIN_WALL_RAN_OFF, RAIN_WALL_WAYS };
+
+/* Water on a square metre, in whole nanolitres. */
+typedef struct rain_wall {
+    uint64_t pores_nl, film_nl;
+    uint64_t ways_nl[RAIN_WALL_WAYS]; /* since creation */
+} rain_wall;
+
+typedef struct rain_walls {
+    rain_wall walls[VIRGA_WALL_ROWS][VIRGA_WALL_MATERIALS];
+    double mm_s[VIRGA_WALL_ROWS]; /* rain that hits them at the newest tick */
+    double slants[4];             /* sums of weights, of slants x and z, and of the slants' squares */
+} rain_walls;
+
+void rain_walls_default(virga_wall_material materials[VIRGA_WALL_MATERIALS]);
+virga_result rain_walls_check(const virga_log *log, virga_wall_material materials[VIRGA_WALL_MATERIALS], bool *changed);
+
+/* Water that hits each row (mm/s), by the velocities of the classes. */
+void rain_walls_flux(const rain_classes *classes, double share, double mm_s[VIRGA_WALL_ROWS]);
+
+/* Before the first tick: settings.walls.start_h of rain. */
+void rain_walls_begin(rain_walls *walls, const rain_classes *classes, const virga_rain_settings *settings);
+void rain_walls_tick(rain_walls *walls, const rain_classes *classes, const virga_rain_settings *settings,
+                     double tick_s);
+
 /* ---- the object */
 
 typedef struct rain_map {
@@ -145,6 +173,7 @@ struct virga_rain {
     rain_classes *classes;
     rain_wind wind;
     double wind_now[3];
+    rain_walls walls;
     uint32_t levels, groups_per_level, groups, slots;
     uint64_t ticks;         /* ticks run since creation */
     uint32_t ticks_of_step; /* ticks run in the newest step */

@@ -59,6 +59,22 @@ static void check_maps(const virga_rain *rain, virga_state_check *check)
         virga_state_expect(check, "rain.maps.half_m", maps[i].half_m, 1e-3, VIRGA_STATE_MAX_NUMBER);
 }
 
+/* Sums of them fit into 64 bits. */
+static void check_walls(const virga_rain *rain, virga_state_check *check)
+{
+    const rain_walls *walls = &VIRGA_STATE_SAVED(check, rain->walls);
+    expect_numbers(check, "rain.walls.mm_s", walls->mm_s, VIRGA_WALL_ROWS);
+    expect_numbers(check, "rain.walls.slants", walls->slants, 4);
+    for (uint32_t row = 0; row < VIRGA_WALL_ROWS; row++)
+        for (uint32_t i = 0; i < VIRGA_WALL_MATERIALS && !check->failed; i++) {
+            const rain_wall *wall = &walls->walls[row][i];
+            virga_state_expect(check, "rain.walls.pores_nl", (double)wall->pores_nl, 0, MAX_TRAVEL);
+            virga_state_expect(check, "rain.walls.film_nl", (double)wall->film_nl, 0, MAX_TRAVEL);
+            for (uint32_t way = 0; way < RAIN_WALL_WAYS; way++)
+                virga_state_expect(check, "rain.walls.ways_nl", (double)wall->ways_nl[way], 0, MAX_TRAVEL);
+        }
+}
+
 void rain_check_state(const void *object, virga_state_check *check)
 {
     const virga_rain *rain = object;
@@ -76,4 +92,5 @@ void rain_check_state(const void *object, virga_state_check *check)
                               rain->def.max_impacts / 64.0 + 1);
     check_classes(rain, check);
     check_maps(rain, check);
+    check_walls(rain, check);
 }

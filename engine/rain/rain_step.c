@@ -239,6 +239,10 @@ static void advance(virga_rain *rain)
     rain_wind_at(&rain->wind, &rain->settings, rain->def.seed, rain->wind_now);
     rain_classes_tick(rain->classes, rain->wind_now, rain->def.tick_s);
     rain_occlusion_tick(rain);
+    if (rain->settings.walls.on && !rain->ticks)
+        rain_walls_begin(&rain->walls, rain->classes, &rain->settings);
+    if (rain->settings.walls.on)
+        rain_walls_tick(&rain->walls, rain->classes, &rain->settings, rain->def.tick_s);
     rain->ticks++;
 }
 

@@ -104,7 +104,8 @@ static void destroy_one(calls *c, calls_type type)
 static void set_rain(calls *c, virga_rain_settings *out)
 {
     static const calls_member kept[] = {CALLS_KEPT(virga_rain_settings, sizes),
-                                        CALLS_KEPT(virga_rain_settings, wind_texture)};
+                                        CALLS_KEPT(virga_rain_settings, wind_texture),
+                                        CALLS_BOOL(virga_rain_settings, walls.on)};
     static double diameters[4], numbers[4];
     static virga_image wind;
     memset(&out->sizes, 0, sizeof out->sizes);

@@ -98,6 +98,19 @@ void call_virga_rain_rainfall_get(calls *c)
     CALLS_DO(c, virga_rain_rainfall_get, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &fall);
 }
 
+void call_virga_rain_walls_get(calls *c)
+{
+    static virga_walls walls;
+    CALLS_DO(c, virga_rain_walls_get, calls_pick(c, CALLS_RAIN).object, calls_slip(c, 8) ? NULL : &walls);
+}
+
+void call_virga_rain_wall_water_get(calls *c)
+{
+    virga_wall_water water;
+    CALLS_DO(c, virga_rain_wall_water_get, calls_pick(c, CALLS_RAIN).object, calls_below(c, 20), calls_below(c, 40),
+             calls_slip(c, 8) ? NULL : &water);
+}
+
 void call_virga_rain_prepare(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_RAIN);

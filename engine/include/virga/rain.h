@@ -21,6 +21,7 @@
 #include <virga/shared/point.h>
 #include <virga/shared/rain_limits.h>
 #include <virga/vulkan.h>
+#include <virga/walls.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -180,6 +181,9 @@ typedef struct virga_rain_settings {
      * part of them. Divides the cost, and delays the effect of moving things and of wind by as many calls. All maps are
      * drawn at once where one would no longer reach around the camera. Default 1: all maps in each call. */
     uint32_t occlusion_interval;
+
+    /* Upright surfaces that driving rain wets, see virga/walls.h. */
+    virga_walls_settings walls;
 } virga_rain_settings;
 
 VIRGA_API virga_rain_settings virga_default_rain_settings(void);
@@ -298,6 +302,15 @@ typedef struct virga_rainfall {
 
 /* Reads it. Costs nothing. All zero for NULL. Thread-safety: as the rain. */
 VIRGA_API void virga_rain_rainfall_get(const virga_rain *rain, virga_rainfall *fall);
+
+/* Reads how wet walls are at the newest tick, for the host's materials. All zero for NULL, and before the first tick.
+ * Costs about 10 us. Thread-safety: as the rain. */
+VIRGA_API void virga_rain_walls_get(const virga_rain *rain, virga_walls *walls);
+
+/* Reads where the water of a square metre of wall went. `row`: a side or VIRGA_WALL_LEVEL. All zero for NULL or another
+ * row. Costs nothing. Thread-safety: as the rain. */
+VIRGA_API void virga_rain_wall_water_get(const virga_rain *rain, uint32_t row, uint32_t material,
+                                         virga_wall_water *water);
 
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 

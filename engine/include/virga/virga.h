@@ -17,6 +17,7 @@
 #include <virga/splash.h>
 #include <virga/state.h>
 #include <virga/vulkan.h>
+#include <virga/walls.h>
 #include <virga/water.h>
 #include <virga/world.h>
 #endif
