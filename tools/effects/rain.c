@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "effect.h"
+#include "ground.h"
 #include "rain/rain_drop.h"
 #include "rain/rain_state.h"
 #include "scene_rows.h"
@@ -30,6 +31,14 @@ static const scene_row rain_key_rows[] = {
     NUMBER(scene_rain_key, wind_m_s, -60, 60, "@rain.wind_m_s", LIVE, "mean wind then"),
 };
 static const scene_group rain_key_group = SCENE_GROUP(scene_rain_key, rain_key_rows);
+
+static const scene_row wall_rows[] = {
+    SWITCH(scene_rain_walls, on, "true", LIVE, "walls, posts and cars get wet where slanting rain hits them"),
+    NUMBER(scene_rain_walls, share, 0, 2, "0.5", LIVE,
+           "part of the free wind's rain that reaches walls: 0.2 to 0.5 on buildings, 1 on what stands alone"),
+    NUMBER(scene_rain_walls, start_h, 0, 240, "0", RESTARTS, "hours that it has rained before the first frame"),
+};
+static const scene_group wall_group = SCENE_GROUP(scene_rain_walls, wall_rows);
 
 static const scene_keyword sizes[] = {{"marshall-palmer", SCENE_SIZES_MARSHALL_PALMER},
                                       {"best", SCENE_SIZES_BEST},
@@ -73,6 +82,7 @@ static const scene_row rain_rows[] = {
     WHOLE(scene_rain, occlusion_slants, 1, 4, "2", RESTARTS, "maps for drops of different slant"),
     WHOLE(scene_rain, occlusion_interval, 1, 16, "1", LIVE,
           "each map is drawn once in so many frames; more is faster, but the maps are older"),
+    GROUP(scene_rain, walls, &wall_group, LIVE, "upright surfaces that the rain wets"),
     LIST(scene_rain, keys, key_count, &rain_key_group, 0, 100000, "[]",
          "rate and wind by time, in place of the two settings"),
 };
@@ -187,6 +197,9 @@ static bool attach(shot *s, void *state, char *error, size_t error_size)
 {
     rain_state *r = state;
     virga_target_def target = virga_default_target_def();
+    const virga_walls dry = {.spread = 0};
+    if (!s->options.plate && !host_renderer_set_walls(s->renderer, &dry, error, error_size))
+        return false;
     if (!host_renderer_describe_mirror(s->renderer, &target))
         return true;
     host_renderer_haze_mirror(s->renderer, draw_mirror_haze, r);
@@ -259,6 +272,10 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     to->transition_s = from->key_count ? 0 : (float)from->transition_s;
     to->gust_m_s = (float)from->gust_m_s;
     to->gust_time_s = (float)from->gust_time_s;
+    to->walls.on = from->walls.on;
+    to->walls.share = (float)from->walls.share;
+    to->walls.start_h = (float)from->walls.start_h;
+    to->walls.evaporation_mm_h = (float)scene_ground_of(s->scene)->evaporation_mm_h;
     fill_look(s, from, to);
     return fill_sizes(s, to, diameters, numbers, error, error_size) &&
            shot_ok(s, virga_rain_set(r->rain, to), "setting the rain", error, error_size);
@@ -272,6 +289,18 @@ static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment
     r->mirror_result = VIRGA_OK;
     return shot_ok(s, virga_rain_prepare(r->rain, cmd, at->steady, virga_rain_time(r->rain) - at->late_s),
                    "preparing the rain", error, error_size);
+}
+
+/* Footage has its own walls. */
+static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size)
+{
+    const rain_state *r = state;
+    virga_walls walls;
+    (void)cmd, (void)camera_s;
+    if (s->options.plate)
+        return true;
+    virga_rain_walls_get(r->rain, &walls);
+    return host_renderer_set_walls(s->renderer, r->settings.walls.on ? &walls : NULL, error, error_size);
 }
 
 static virga_result draw_haze(void *state, VkCommandBuffer cmd, const virga_target *target)
@@ -409,6 +438,7 @@ const tool_effect rain_effect = {
     .attach = attach,
     .apply = apply,
     .prepare = prepare,
+    .before_plate = before_plate,
     .points = &points,
     .write_stats = write_stats,
     .main_setting = main_setting,

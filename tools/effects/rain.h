@@ -21,6 +21,12 @@ typedef struct scene_rain_key {
     double wind_m_s[3];
 } scene_rain_key;
 
+/* Walls that driving rain wets. */
+typedef struct scene_rain_walls {
+    bool on;
+    double share, start_h;
+} scene_rain_walls;
+
 typedef struct scene_rain {
     double rate_mm_h;
     uint32_t sizes;          /* scene_sizes */
@@ -36,6 +42,7 @@ typedef struct scene_rain {
     double streak_gain, light_gain, min_width_px, soft_m, near_fade_m, oscillation, haze, haze_sky_m, glow,
         streak_min_mm, streak_group_mm;
     uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_interval;
+    scene_rain_walls walls;
     scene_rain_key *keys; /* in order of time; linear between, constant outside; none: rate_mm_h and wind_m_s apply */
     uint32_t key_count;
 } scene_rain;

@@ -32,6 +32,7 @@ static void write_frame(const host_renderer *r)
     write_image(r, FRAME_AT_MIRROR, HOST_SAMPLE_LINEAR, &r->white);
     write_image(r, FRAME_AT_FAR_WETNESS, HOST_SAMPLE_NEAREST, &r->white);
     write_image(r, FRAME_AT_MIRROR_NEAR, HOST_SAMPLE_LINEAR, &r->white);
+    write_image(r, FRAME_AT_SHELTER, HOST_SAMPLE_NEAREST, &r->white);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------------------------- */
@@ -95,6 +96,7 @@ void host_renderer_destroy(host_renderer **renderer)
     vkDestroyDescriptorSetLayout(vk, r->material_layout, NULL);
     host_samplers_destroy(r->device, r->samplers);
     host_skylight_destroy(r->device, &r->skylight);
+    host_shelter_destroy(r->device, &r->shelter);
     host_mirror_destroy(r->device, &r->mirror);
     host_image_destroy(r->device, &r->white);
     host_image_destroy(r->device, &r->blank_spots);
@@ -167,6 +169,21 @@ void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
         if (maps->far_wetness)
             write_view(r, FRAME_AT_FAR_WETNESS, HOST_SAMPLE_NEAREST, maps->far_wetness, VK_IMAGE_LAYOUT_GENERAL);
     }
+}
+
+bool host_renderer_set_walls(host_renderer *r, const virga_walls *walls, char *error, size_t error_size)
+{
+    r->has_walls = walls;
+    if (!walls)
+        return true;
+    r->walls = *walls;
+    if (r->shelter.slice.framebuffer)
+        return true;
+    if (!host_shelter_create(r->device, r->skylight.pass, &r->shelter, error, error_size))
+        return false;
+    write_view(r, FRAME_AT_SHELTER, HOST_SAMPLE_NEAREST, r->shelter.map.view,
+               VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    return true;
 }
 
 bool host_renderer_set_mirror(host_renderer *r, const host_target *target, double height_m, char *error,

@@ -43,6 +43,18 @@ static uint32_t lamps_of(const host_renderer *r, const host_primitive *primitive
     return bits;
 }
 
+/* What rain does on it where it is no ground; -1: glass, whose drops are another effect's. Names that say nothing, or only
+ * that it is a building's, may be those of paint. */
+static int32_t wall_material(const host_primitive *primitive, const host_material *material)
+{
+    const uint32_t surface = primitive->surface;
+    if (material->alpha == HOST_ALPHA_GLASS || surface == VIRGA_MATERIAL_GLASS || surface >= HOST_WALL_MATERIALS)
+        return -1;
+    if (surface == VIRGA_MATERIAL_DEFAULT && material->metallic > 0.5f)
+        return VIRGA_MATERIAL_STEEL;
+    return surface == VIRGA_MATERIAL_DEFAULT && material->roughness < 0.5f ? VIRGA_MATERIAL_PLASTIC : (int32_t)surface;
+}
+
 static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id, uint32_t lamps,
                          struct host_surface_gpu *out)
 {
@@ -60,6 +72,7 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
     out->traits[2] = (float)id;
     out->traits[3] = bits;
     out->lamps[0] = (float)lamps;
+    out->lamps[1] = (float)wall_material(primitive, material);
 }
 
 /* Whether a pipeline draws a material. */
@@ -169,13 +182,15 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     }
 }
 
-/* Draws everything but glass into the depth map of one direction of the sky. */
-static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direction, bool cutouts)
+enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2 };
+
+/* Draws everything but glass into a depth map: of one direction of the sky, or of the rain. */
+static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float map_from_world[16], int parts)
 {
     const host_skylight *s = &r->skylight;
     const VkDeviceSize offset = 0;
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, cutouts ? s->cutout : s->opaque);
-    host_skylight_push(s, cmd, direction, 1.0f, 0.0f);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, parts & DRAW_CUTOUTS ? s->cutout : s->opaque);
+    host_skylight_push(s, cmd, map_from_world, 1.0f, 0.0f);
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_entry *entry = &r->entries[e];
         const host_mesh *mesh = entry->mesh;
@@ -186,10 +201,11 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direc
         for (uint32_t i = 0; i < mesh->primitive_count; i++) {
             const host_primitive *primitive = &mesh->primitives[i];
             const host_material *material = &mesh->materials[primitive->material];
-            if (!is_drawn_by(material, cutouts ? HOST_PIPELINE_CUTOUT : HOST_PIPELINE_DEPTH))
+            if (!is_drawn_by(material, parts & DRAW_CUTOUTS ? HOST_PIPELINE_CUTOUT : HOST_PIPELINE_DEPTH) ||
+                ((parts & DRAW_NO_LEAVES) && primitive->surface == VIRGA_MATERIAL_LEAVES))
                 continue;
-            if (cutouts) {
-                host_skylight_push(s, cmd, direction, material->base_color[3], material->cutoff);
+            if (parts & DRAW_CUTOUTS) {
+                host_skylight_push(s, cmd, map_from_world, material->base_color[3], material->cutoff);
                 vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->draw_layout, 0, 1,
                                         &entry->sets[primitive->material], 0, NULL);
             }
@@ -208,11 +224,28 @@ static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_ca
     host_skylight_begin(&r->skylight, cmd);
     for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
         host_skylight_begin_map(&r->skylight, cmd, i);
-        draw_map(r, cmd, i, false);
-        draw_map(r, cmd, i, true);
+        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], 0);
+        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], DRAW_CUTOUTS);
         host_skylight_end_map(&r->skylight, cmd);
     }
     host_skylight_gather(&r->skylight, cmd);
+    host_label_end(r->device, cmd);
+}
+
+/* Without walls the map is cleared once, because the plate's shaders need it in its layout. */
+static void update_shelter(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
+{
+    host_shelter *s = &r->shelter;
+    float low[3], high[3];
+    find_bounds(r, low, high);
+    if (!s->slice.framebuffer || (!r->has_walls && s->ready) ||
+        (r->has_walls && !host_shelter_place(s, &r->walls, camera, (double)low[1], (double)high[1])))
+        return;
+    host_label_begin(r->device, cmd, "shelter");
+    host_shelter_begin(s, cmd, r->skylight.pass);
+    if (r->has_walls)
+        draw_map(r, cmd, s->map_from_world, DRAW_NO_LEAVES); /* these let rain through, soon as drips */
+    host_shelter_end(s, cmd);
     host_label_end(r->device, cmd);
 }
 
@@ -280,6 +313,7 @@ static void begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
 {
     struct host_frame_gpu frame;
     update_skylight(r, cmd, camera);
+    update_shelter(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
     record_mirror(r, cmd, &frame, camera);

@@ -6,6 +6,7 @@
 #include "mirror.h"
 #include "renderer.h"
 #include "shaders/frame_gpu.h"
+#include "shelter.h"
 #include "skylight.h"
 
 /* Each has two variants: with and without back-face culling. */
@@ -34,6 +35,7 @@ enum {
     FRAME_AT_MIRROR,
     FRAME_AT_FAR_WETNESS, /* of the ground beyond the simulated window */
     FRAME_AT_MIRROR_NEAR, /* distances in the mirror */
+    FRAME_AT_SHELTER,     /* where walls stay dry */
     FRAME_BINDINGS,
 };
 
@@ -62,6 +64,9 @@ struct host_renderer {
     host_draw_haze draw_haze; /* draws over the mirror; NULL: none */
     void *haze_user;
     host_skylight skylight;
+    host_shelter shelter;
+    bool has_walls; /* else all walls are dry */
+    virga_walls walls;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];
     uint32_t light_count;

@@ -23,7 +23,8 @@ static bool create_pass(host_device *device, host_skylight *s, char *error, size
 {
     const VkAttachmentDescription attachment =
         host_attachment(VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
-    const VkPipelineStageFlags gathers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    /* Fragments sample the map of shelter, which is drawn with the same pass. */
+    const VkPipelineStageFlags gathers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     const VkAccessFlags reads = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
     const VkAccessFlags writes = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     const host_pass_def def = {
@@ -238,10 +239,11 @@ void host_skylight_begin_map(const host_skylight *s, VkCommandBuffer cmd, uint32
     host_pass_begin(cmd, s->pass, s->slices[direction].framebuffer, MAP_SIZE, MAP_SIZE, 0);
 }
 
-void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction, float alpha, float cutoff)
+void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, const float map_from_world[16], float alpha,
+                        float cutoff)
 {
     struct host_skylight_draw_gpu draw;
-    memcpy(draw.map_from_world, s->gpu.map_from_world[direction], sizeof draw.map_from_world);
+    memcpy(draw.map_from_world, map_from_world, sizeof draw.map_from_world);
     draw.cutout[0] = alpha;
     draw.cutout[1] = cutoff;
     draw.cutout[2] = draw.cutout[3] = 0.0f;

@@ -41,7 +41,7 @@ bool host_skylight_place(host_skylight *skylight, const double camera_m[3], cons
  * gather. */
 void host_skylight_begin(host_skylight *skylight, VkCommandBuffer cmd);
 void host_skylight_begin_map(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction);
-void host_skylight_push(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction, float alpha,
+void host_skylight_push(const host_skylight *skylight, VkCommandBuffer cmd, const float map_from_world[16], float alpha,
                         float cutoff);
 void host_skylight_end_map(const host_skylight *skylight, VkCommandBuffer cmd);
 void host_skylight_gather(host_skylight *skylight, VkCommandBuffer cmd);

@@ -16,6 +16,10 @@ layout(location = 0) in vec3 in_relative;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 
+#ifndef FOOTAGE
+#define WALLS
+#include "walls.glsl"
+#endif
 #ifdef MIRROR
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out float out_near;
@@ -195,6 +199,10 @@ void main()
     vec2 wetness = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
 #else
     vec2 wetness = vec2(0.0);
+#endif
+#ifdef WALLS
+    Wall wall = wall_at(in_relative, n, int(surface.lamps.y), bits >= HOST_GROUND);
+    wet_wall(wall, metallic, albedo, roughness, f0);
 #endif
     vec4 moments = sky_moments(n);
     vec3 r = reflect(-v, n);

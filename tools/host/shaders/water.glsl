@@ -8,11 +8,15 @@
 //
 // What water does not cover are stones (grain.glsl): their film follows them, and mirrors by their slopes. Around each
 // the water climbs a little, and what is shallower than a third of a millimetre does as they do.
+#ifndef WALLS
 #include "shared/ground_map.glsl"
+#endif
 
 #include "grain.glsl"
 
+#ifndef WALLS // which has it already
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
+#endif
 layout(set = 0, binding = 5) uniform usampler2D spot_map;
 layout(set = 0, binding = 6) uniform sampler2D ripple_map;
 layout(set = 0, binding = 8) uniform sampler2D far_map;
