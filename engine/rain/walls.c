@@ -1,5 +1,5 @@
-/* rain/walls.c - water that driving rain brings to upright surfaces, see virga/walls.h. On the host, in whole nanolitres
- * per square metre. Like the size classes it has the same bits on every run. */
+/* rain/walls.c - water that driving rain brings to upright surfaces, see virga/walls.h. On the host, in whole
+ * nanolitres per square metre. Like the size classes it has the same bits on every run. */
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
@@ -9,13 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-#define NL_PER_MM 1e9   /* per square metre */
-#define RUN_S     2.0   /* time in which a film loses what does not cling to the wall */
-#define MEMORY_S  300.0 /* of the mean slant */
-#define START_S   30.0  /* a step of the time before the first tick */
-#define MAX_SLANT 8.0   /* as of the occlusion maps */
-#define FULL_TURN 6.283185307179586
-#define GUSTS     13
+#define NL_PER_MM  1e9   /* per square metre */
+#define RUN_S      2.0   /* time in which a film loses what does not cling to the wall */
+#define MEMORY_S   300.0 /* of the mean slant */
+#define START_S    30.0  /* a step of the time before the first tick, */
+#define MAX_STARTS 480   /* or more, so that there are no more than so many */
+#define MAX_SLANT  8.0   /* as of the occlusion maps */
+#define FULL_TURN  6.283185307179586
+#define GUSTS      13
 
 /* Pores: as of ground (engine/ground/materials.c). Films that cling to upright surfaces: 0.05 to 0.1 mm. The speed into
  * the depth is that of capillary absorption after an hour, A / (2 sqrt(t)), with the water absorption coefficients of
@@ -114,8 +115,8 @@ static uint64_t least(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-/* What came fills the pores first (soak.glsl). It dries as the cells of ground do (flow.comp): first the film, then more
- * and more slowly the pores. */
+/* What came fills the pores first (soak.glsl). It dries as the cells of ground do (flow.comp): first the film, then
+ * more and more slowly the pores. */
 static void wet(rain_wall *wall, const virga_wall_material *m, uint64_t fell_nl, double evaporation_mm_h, double s)
 {
     const uint64_t capacity = nl_of((double)m->capacity_mm * NL_PER_MM), held = nl_of((double)m->film_mm * NL_PER_MM);
@@ -158,9 +159,9 @@ static double gust_at(int i)
     return 0.5 * (i - GUSTS / 2);
 }
 
-/* Means over the gusts, which are normally distributed (wind.c), in steps of half a deviation: a wall that the wind blows
- * along gets rain from half of them. Drops follow the wind, as gusts last for seconds. Vertical gusts nearly cancel
- * out. */
+/* Means over the gusts, which are normally distributed (wind.c), in steps of half a deviation: a wall that the wind
+ * blows along gets rain from half of them. Drops follow the wind, as gusts last for seconds. Vertical gusts nearly
+ * cancel out. */
 static void average(const rain_classes *classes, const virga_rain_settings *settings, double mm_s[VIRGA_WALL_ROWS],
                     double sums[4])
 {
@@ -187,11 +188,12 @@ static void average(const rain_classes *classes, const virga_rain_settings *sett
 
 void rain_walls_begin(rain_walls *walls, const rain_classes *classes, const virga_rain_settings *settings)
 {
-    double mm_s[VIRGA_WALL_ROWS], left_s = (double)settings->walls.start_h * 3600;
+    const double start_s = (double)settings->walls.start_h * 3600, step_s = fmax(START_S, start_s / MAX_STARTS);
+    double mm_s[VIRGA_WALL_ROWS];
     memset(walls, 0, sizeof *walls);
     average(classes, settings, mm_s, walls->slants);
-    for (; left_s > 0; left_s -= START_S)
-        wet_all(walls, &settings->walls, mm_s, fmin(left_s, START_S));
+    for (double left_s = start_s; left_s > 1e-3; left_s -= step_s)
+        wet_all(walls, &settings->walls, mm_s, fmin(left_s, step_s));
 }
 
 void rain_walls_tick(rain_walls *walls, const rain_classes *classes, const virga_rain_settings *settings, double tick_s)

@@ -136,6 +136,9 @@ static void set_rain(bytes *b, virga_scene *scene)
     s.streak_min_mm = read_float(b, 0.2, 2);
     s.streak_group_mm = read_float(b, 0.2, 100);
     s.occlusion_interval = read_uint(b) % 20;
+    s.walls.on = s.occlusion_interval % 2;
+    s.walls.start_h = s.streak_group_mm;
+    s.walls.materials[s.occlusion_interval].film_mm = s.oscillation;
     s.sizes.kind = (virga_sizes_kind)(read_uint(b) % 4);
     s.sizes.table_diameter_m = diameters;
     s.sizes.table_number = numbers;

@@ -43,8 +43,8 @@ static uint32_t lamps_of(const host_renderer *r, const host_primitive *primitive
     return bits;
 }
 
-/* What rain does on it where it is no ground; -1: glass, whose drops are another effect's. Names that say nothing, or only
- * that it is a building's, may be those of paint. */
+/* What rain does on it where it is no ground; -1: glass, whose drops are another effect's. Where names say nothing,
+ * what is smooth is painted. */
 static int32_t wall_material(const host_primitive *primitive, const host_material *material)
 {
     const uint32_t surface = primitive->surface;

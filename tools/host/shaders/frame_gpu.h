@@ -16,12 +16,12 @@ typedef float host_mat4[16];
 #define HOST_LIGHT struct host_light_gpu
 #endif
 
-#define HOST_MAX_LIGHTS   16
-#define HOST_RIPPLES_FADE 0.08   /* part of the ripple map's side along its edges in which ripples fade out */
-#define HOST_LEVEL_Y      0.3    /* normals that rise less are too steep for water */
-#define HOST_WALL_MATERIALS 17  /* of virga_material */
-#define HOST_WALL_ROWS    17    /* VIRGA_WALL_ROWS */
-#define HOST_MIRROR_FAR   1000.0 /* metres: how far away all that is farther counts as */
+#define HOST_MAX_LIGHTS     16
+#define HOST_RIPPLES_FADE   0.08   /* part of the ripple map's side along its edges in which ripples fade out */
+#define HOST_LEVEL_Y        0.3    /* normals that rise less are too steep for water */
+#define HOST_WALL_MATERIALS 17     /* of virga_material */
+#define HOST_WALL_ROWS      17     /* VIRGA_WALL_ROWS */
+#define HOST_MIRROR_FAR     1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
     HOST_VEC4 position;  /* position relative to the camera, 1 / range or 0 */
@@ -57,8 +57,8 @@ struct host_frame_gpu {
     /* height of the mirror's plane relative to the camera, how much smaller than the picture's its clip space is drawn;
      * z: 1, or 0 for no mirror */
     HOST_VEC4 mirror;
-    /* place of the camera in the map of shelter (x and z, m), y: height of its top relative to the camera, w: metres from
-     * there to its bottom; 0: all walls are dry */
+    /* place of the camera in the map of shelter (x and z, m), y: height of its top relative to the camera, w: metres
+     * from there to its bottom; 0: all walls are dry */
     HOST_VEC4 shelter_low;
     HOST_VEC4 shelter_slant; /* of the rain, x and z; z: standard deviation; w: 1 / side of the map */
     HOST_VEC4 walls[HOST_WALL_ROWS * HOST_WALL_MATERIALS]; /* virga_wall_gpu, row by row */

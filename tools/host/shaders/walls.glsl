@@ -140,25 +140,26 @@ Wall wall_at(vec3 relative, vec3 n, int material, bool ground)
         return wall;
     const virga_wall_look look = virga_wall_rows(n);
     const vec4 level = wall_row(look.rows.z, material);
-    const vec4 row = look.weights.x * wall_row(look.rows.x, material) + look.weights.y * wall_row(look.rows.y, material) +
-                     look.weights.z * level;
+    const vec4 sides[2] = vec4[](wall_row(look.rows.x, material), wall_row(look.rows.y, material));
+    const vec4 row = look.weights.x * sides[0] + look.weights.y * sides[1] + look.weights.z * level;
     const float share = ground ? 1.0 - smoothstep(HOST_LEVEL_Y, 0.6, n.y) : 1.0;
     const float pixel_m = max(length(dFdx(relative)), length(dFdy(relative)));
     const vec3 world = relative + frame.camera.xyz;
     const float along = n.z * world.x - n.x * world.z + 17.0 * n.x; // along the wall
     const float noise = wall_noise(vec2(along, world.y) * 14.0) * 0.6 + wall_noise(vec2(along, world.y) * 45.0) * 0.4;
     if (row.x > 0.01) {
-        float above_m;
-        const float open = shelter_open(relative, n, above_m);
+        float near_m;
+        const float open = shelter_open(relative, n, near_m);
         // What is soaked in the open has had enough where a part of the rain arrives.
         const float enough = mix(0.9, 0.45, smoothstep(0.0, 0.06, row.y));
-        const float wet = smoothstep(0.05, enough, open + 0.9 * (noise - 0.5) * open * (1.0 - open) * 4.0 * 0.5);
+        const float wet = smoothstep(0.05, enough, open + 1.8 * (noise - 0.5) * open * (1.0 - open));
         const float run = clamp(row.z / RUN_FULL_MM_H, 0.0, 1.0), flow = clamp(level.z / RUN_FULL_MM_H, 0.0, 1.0);
-        const float streak = open < 0.95 && above_m < 1.0 && abs(n.y) < 0.4
-                                 ? ledge_streaks(along, world.y, above_m, flow, pixel_m)
+        const float streak = open < 0.95 && near_m < 1.0 && abs(n.y) < 0.4
+                                 ? ledge_streaks(along, world.y, near_m, flow, pixel_m)
                                  : 0.0;
         // Where it runs, the film is thicker in rivulets, which keep to their paths.
-        const float rivulets = wall_noise(vec2(along * 22.0 + 0.6 * wall_noise(vec2(along, world.y) * 3.0), world.y * 1.1));
+        const float path = 22.0 * along + 0.6 * wall_noise(vec2(along, world.y) * 3.0);
+        const float rivulets = wall_noise(vec2(path, world.y * 1.1));
         const float upright = 1.0 - smoothstep(0.2, 0.6, abs(n.y));
         const float thick = mix(1.0, mix(0.3, 1.0, smoothstep(0.4, 0.8, rivulets)), upright * run);
         wall.damp = max(smoothstep(0.0, 0.85, row.x) * wet, 0.9 * streak);
