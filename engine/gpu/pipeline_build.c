@@ -12,7 +12,8 @@ typedef struct constants {
     VkBool32 small_views; /* constant 1: see shaders/gpu/texels.glsl */
     VkBool32 encoded;     /* constants 2 and 3: see shaders/gpu/encode.glsl */
     float blend_background;
-    VkBool32 for_gpu; /* constant 4: see shaders/gpu/variants.glsl */
+    VkBool32 for_gpu;    /* constant 4: see shaders/gpu/variants.glsl */
+    uint32_t scan_lanes; /* constant 5: see shaders/gpu/long_scan.glsl */
 } constants;
 
 static const VkSpecializationMapEntry constant_entries[] = {
@@ -20,12 +21,21 @@ static const VkSpecializationMapEntry constant_entries[] = {
     {1, offsetof(constants, small_views), sizeof((constants *)0)->small_views},
     {2, offsetof(constants, encoded), sizeof((constants *)0)->encoded},
     {3, offsetof(constants, blend_background), sizeof((constants *)0)->blend_background},
-    {4, offsetof(constants, for_gpu), sizeof((constants *)0)->for_gpu}};
+    {4, offsetof(constants, for_gpu), sizeof((constants *)0)->for_gpu},
+    {5, offsetof(constants, scan_lanes), sizeof((constants *)0)->scan_lanes}}; /* last: see specialize */
 
+/* Software Vulkan keeps the sizes of workgroups that its shaders declare. */
 static VkSpecializationInfo specialize(const constants *values)
 {
-    return (VkSpecializationInfo){sizeof constant_entries / sizeof constant_entries[0], constant_entries,
-                                  sizeof *values, values};
+    const uint32_t count = sizeof constant_entries / sizeof constant_entries[0];
+    return (VkSpecializationInfo){values->for_gpu ? count : count - 1, constant_entries, sizeof *values, values};
+}
+
+/* Invocations of a workgroup that scans a long list on a GPU. With more, some have too few registers for each. */
+static uint32_t scan_lanes(const virga_context *context)
+{
+    const VkPhysicalDeviceLimits *limits = &context->properties.limits; /* at least 256, see device_check.c */
+    return limits->maxComputeWorkGroupInvocations >= 512 && limits->maxComputeWorkGroupSize[0] >= 512 ? 512 : 256;
 }
 
 static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
@@ -46,8 +56,10 @@ static void module_destroy(const virga_context *context, VkShaderModule module)
 VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
                              const char **call)
 {
-    const constants values = {
-        .own = def->constant, .small_views = context->small_views, .for_gpu = !context->for_software};
+    const constants values = {.own = def->constant,
+                              .small_views = context->small_views,
+                              .for_gpu = !context->for_software,
+                              .scan_lanes = scan_lanes(context)};
     const VkSpecializationInfo specialization = specialize(&values);
     VkShaderModule module = VK_NULL_HANDLE;
     VkResult result = module_create(context, def->shader, &module, call);

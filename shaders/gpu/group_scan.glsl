@@ -4,6 +4,8 @@
 // numbers. That takes three barriers. The usual doubling (Hillis and Steele 1986) takes seventeen, and on software
 // Vulkan a barrier costs more than thirty additions. Only few invocations read many numbers, because there each read is
 // a loop over the lanes: when every invocation added up what lies before it, a scan took 40 us longer.
+#ifndef GROUP_SCAN
+#define GROUP_SCAN
 #ifndef SCAN_LANES
 #define SCAN_LANES 256u
 #endif
@@ -41,3 +43,4 @@ uvec2 scan_group(uvec2 own, out uvec2 all)
     all = scan_blocks[blocks];
     return scan_sums[lane] + scan_blocks[lane / SCAN_BLOCK];
 }
+#endif

@@ -7,9 +7,9 @@
 #include "cells.glsl"
 #include "pieces.glsl"
 #include "spawns.glsl"
-#include "gpu/group_scan.glsl"
+#define SOFTWARE_LANES VIRGA_GROUND_GROUP
+#include "gpu/long_scan.glsl"
 
-layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
 #define MIN_NEAR_M 0.25
@@ -29,7 +29,7 @@ float next_near(float near_m, float found)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, run = (head_count() + VIRGA_GROUND_GROUP - 1u) / VIRGA_GROUND_GROUP;
+    const uint lane = gl_LocalInvocationIndex, run = (head_count() + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, head_count()), end = min(begin + run, head_count());
     uint sum = 0u;
     for (uint i = begin; i < end; i++)

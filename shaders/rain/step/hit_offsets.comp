@@ -7,15 +7,14 @@
 #include "rain/field.glsl"
 #include "rain/compact.glsl"
 #include "gpu/compact_buffers.glsl"
-#include "gpu/group_scan.glsl"
+#define SOFTWARE_LANES VIRGA_RAIN_GROUP
+#include "gpu/long_scan.glsl"
 #include "hit.glsl"
 #include "hit_list.glsl"
 
-layout(local_size_x = VIRGA_RAIN_GROUP) in;
-
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, run = (list.count + VIRGA_RAIN_GROUP - 1u) / VIRGA_RAIN_GROUP;
+    const uint lane = gl_LocalInvocationIndex, run = (list.count + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, list.count), end = min(begin + run, list.count);
     uint sum = 0u;
     for (uint i = begin; i < end; i++)

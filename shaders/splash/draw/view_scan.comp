@@ -8,12 +8,12 @@
 #include "view.glsl"
 #include "compact.glsl"
 #define COMPACT_ACCESS coherent // invocation 0 reads what others wrote, see first_of_set
-#define SCAN_LANES VIRGA_SPLASH_LANES
+#define SOFTWARE_LANES VIRGA_SPLASH_LANES
+#include "gpu/long_scan.glsl"
 #include "gpu/compact_scan.glsl"
 #include "gpu/compact_write.glsl"
 #include "view_lists.glsl"
 
-layout(local_size_x = VIRGA_SPLASH_LANES) in;
 layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gpu prepared; };
 
 #define FEW_WORDS 512u // up to this many words are written here: a dispatch costs software Vulkan as much

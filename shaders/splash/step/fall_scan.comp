@@ -15,10 +15,8 @@
 #define STEP_WORDS (VIRGA_SPLASH_SINGLE_GROUP_DROPLETS / 32)
 #include "fly.glsl"
 #include "view_groups.glsl"
-#define SCAN_LANES VIRGA_SPLASH_LANES
-#include "gpu/group_scan.glsl"
-
-layout(local_size_x = VIRGA_SPLASH_LANES) in;
+#define SOFTWARE_LANES VIRGA_SPLASH_LANES
+#include "gpu/long_scan.glsl"
 
 // The spawns of the step's later ticks, which are at the end. Each may find no room in the air and return its water at
 // once.
@@ -40,7 +38,7 @@ void step_few(uint lane, uint end)
 {
     clear_bits(lane);
     barrier();
-    for (uint slot = lane; slot < end; slot += VIRGA_SPLASH_LANES) {
+    for (uint slot = lane; slot < end; slot += SCAN_LANES) {
         const virga_droplet_gpu droplet = droplet_of(slot);
         if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
             step_droplet(slot, droplet, slot);
@@ -58,7 +56,7 @@ void main()
     const uint words = (end_droplet + 31u) / 32u,
                few = end_droplet <= VIRGA_SPLASH_SINGLE_GROUP_DROPLETS ? end_droplet : 0u;
     step_few(lane, few);
-    const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
+    const uint run = (words + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
@@ -75,7 +73,7 @@ void main()
     const uint fallen = min(all.x, tick.max_returned_droplets - reserved_returns);
     memoryBarrierBuffer();
     barrier();
-    for (uint slot = lane; slot < few; slot += VIRGA_SPLASH_LANES) // not read as texels, because they were written here
+    for (uint slot = lane; slot < few; slot += SCAN_LANES) // not read as texels, because they were written here
         compact_droplet(slot, stored_droplet(slot), returned, fallen);
     if (lane != 0u)
         return;

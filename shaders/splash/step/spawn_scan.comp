@@ -13,10 +13,8 @@
 #include "returns.glsl"
 #include "spawn_start.glsl"
 #include "handed.glsl"
-#define SCAN_LANES VIRGA_SPLASH_LANES
-#include "gpu/group_scan.glsl"
-
-layout(local_size_x = VIRGA_SPLASH_LANES) in;
+#define SOFTWARE_LANES VIRGA_SPLASH_LANES
+#include "gpu/long_scan.glsl"
 
 shared uint full_rank, droplets_at_full, expired, cut_short;
 
@@ -31,7 +29,7 @@ uint forget_splashes(uint lane)
     uint first = state.first_splash;
     for (;;) {
         if (lane == 0u)
-            expired = VIRGA_SPLASH_LANES;
+            expired = SCAN_LANES;
         barrier();
         const uint index = first + lane;
         bool live = index - first >= state.end_splash - first;
@@ -43,7 +41,7 @@ uint forget_splashes(uint lane)
         const uint passed = expired;
         first += passed;
         barrier();
-        if (passed < VIRGA_SPLASH_LANES)
+        if (passed < SCAN_LANES)
             break;
     }
     return first;
@@ -55,7 +53,7 @@ void count_cut_short(uint lane, uint first, uint end)
     if (lane == 0u)
         cut_short = 0u;
     barrier();
-    for (uint i = lane; i < min(end - first, tick.max_splashes); i += VIRGA_SPLASH_LANES)
+    for (uint i = lane; i < min(end - first, tick.max_splashes); i += SCAN_LANES)
         if (!is_over(splash_of((first + i) & (tick.max_splashes - 1u))))
             atomicAdd(cut_short, 1u);
     barrier();
@@ -84,7 +82,7 @@ uint room_beside_handed(uint room)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = spawn_count();
-    const uint run = (all + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
+    const uint run = (all + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, all), end = min(begin + run, all);
     const uint staying = state.staying, end_splash = state.end_splash;
     const uint returned = tick.tick_in_step == 0u ? 0u : state.returns;
@@ -119,7 +117,7 @@ void main()
     barrier();
     const uint end_after = end_splash + found.x;
     first_splash = make_room(lane, first_splash, end_splash, end_after);
-    const bool few = all <= VIRGA_SPLASH_LANES;
+    const bool few = all <= SCAN_LANES;
     if (few && lane < all && spawns[lane].tick == tick.tick)
         start_splash(spawns[lane], spawn_ranks[lane],
                      Starts(end_splash, staying, returned, first_splash, full_rank));
