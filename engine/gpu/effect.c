@@ -198,7 +198,8 @@ static uint32_t form_count(const virga_effect_pass *row)
     return row->forms ? row->forms : 1;
 }
 
-static virga_result create_passes(virga_effect *effect)
+/* Those that are used with these settings and are not there yet. */
+static virga_result create_passes(virga_effect *effect, const void *settings)
 {
     const virga_effect_type *type = effect->type;
     const uint32_t common = type->pass_constant ? type->pass_constant(effect) : 0;
@@ -211,7 +212,7 @@ static virga_result create_passes(virga_effect *effect)
                                  .group = &effect->passes,
                                  .name = row->name};
         for (uint32_t form = 0; form < form_count(row); form++) {
-            if (type->form_used && !type->form_used(effect, row, form))
+            if (pipelines[form] || (type->form_used && !type->form_used(effect, settings, row, form)))
                 continue;
             def.constant = common | (row->constant + form);
             TRY(virga_compute_pipeline_create(effect->context, &def, &pipelines[form]));
@@ -239,7 +240,7 @@ static virga_result init(virga_effect *effect)
     TRY(virga_effect_create_fills(effect));
     if (type->create)
         TRY(type->create(effect));
-    TRY(create_passes(effect));
+    TRY(create_passes(effect, virga_effect_member(effect, type->settings.member)));
     TRY(virga_recording_result(effect->context));
 error:
     return result < 0 ? result : fitted;
@@ -402,6 +403,8 @@ virga_result virga_effect_set(virga_effect *effect, const char *call, const void
         TRY(type->apply_settings(effect, settings));
     if (type->wanted_draws)
         TRY(virga_effect_want_draws(effect, settings));
+    if (type->form_used)
+        TRY(create_passes(effect, settings));
     memcpy(virga_effect_member(effect, type->settings.member), settings, type->settings.size);
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 error:

@@ -240,9 +240,9 @@ typedef struct virga_effect_type {
     void (*describe)(const void *object, char *line, size_t size);
     /* (optional) Bits that are set in the specialisation constant 0 of every pass, and of every draw. */
     uint32_t (*pass_constant)(const void *object);
-    /* (optional) Whether an object with this definition ever records this form of a pass. Other forms have no pipeline.
-     * Without it: all forms. */
-    bool (*form_used)(const void *object, const virga_effect_pass *pass, uint32_t form);
+    /* (optional) Whether an object with this definition and these settings ever records this form of a pass. Pipelines
+     * of other forms are created once its settings use them. Without it: all forms. */
+    bool (*form_used)(const void *object, const void *settings, const virga_effect_pass *pass, uint32_t form);
     uint32_t (*draw_constant)(const void *object);
     /* (optional) The rows of `draws` that an object with these settings may draw with, as bits. Pipelines of other rows
      * are built once its settings want them. Without it: all rows. */

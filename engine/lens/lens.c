@@ -208,9 +208,10 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
-static bool form_used(const void *object, const virga_effect_pass *pass, uint32_t form)
+static bool form_used(const void *object, const void *given, const virga_effect_pass *pass, uint32_t form)
 {
     const virga_lens *lens = object;
+    const virga_lens_settings *settings = given;
     const uint32_t forms = VIRGA_LENS_LAYERS + 1, layers = form % forms;
     const uint32_t kind = form / forms % VIRGA_LENS_COMBINE_KINDS;
     const size_t member = pass->member;
@@ -218,6 +219,8 @@ static bool form_used(const void *object, const virga_effect_pass *pass, uint32_
         return true;
     if (lens->def.circles || member == AT(circle))
         return lens->def.circles && member == AT(circle);
+    if (member == AT(paper))
+        return settings->style == VIRGA_LENS_STYLE_PAPER;
     if (member != AT(tile) && member != AT(combine))
         return true;
     const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;

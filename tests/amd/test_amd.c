@@ -159,6 +159,10 @@ static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, u
     def.half_resolution = half_resolution;
     def.circles = circles;
     assert_int_equal(virga_lens_create(context, &def, &lens), VIRGA_OK);
+    virga_lens_settings settings = virga_default_lens_settings();
+    settings.style = VIRGA_LENS_STYLE_PAPER; /* the filters are the same for all */
+    if (!half_resolution)
+        assert_int_equal(virga_lens_set(lens, &settings), VIRGA_OK);
     return lens;
 }
 

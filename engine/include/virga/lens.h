@@ -140,7 +140,8 @@ VIRGA_API virga_result virga_lens_ready(const virga_lens *lens);
 
 /* Applies new settings from the next prepare on. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity or a
  * wrong cookie: VIRGA_ERROR_INVALID, and nothing changes. New blades cost about 7 ms on the CPU; all else costs
- * nothing, e.g. another focus in every frame. */
+ * nothing, e.g. another focus in every frame. The first VIRGA_LENS_STYLE_PAPER needs 12 pipelines. They are built as
+ * virga_context_def.pipeline_build_mode says, and there is no picture until they are there. */
 VIRGA_API virga_result virga_lens_set(virga_lens *lens, const virga_lens_settings *settings);
 
 /* Reads the current settings. */
