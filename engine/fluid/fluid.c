@@ -207,6 +207,7 @@ static const virga_effect_pass passes[] = {
     STEP_PASS(body_move),
     STEP_PASS(advance),
     STEP_PASS(body_hit),
+    STEP_PASS(body_near),
     PASS(exchange_spray, .layout = FLUID_LAYOUT_EXCHANGE),
     PASS(exchange_in, .layout = FLUID_LAYOUT_EXCHANGE),
     PASS(exchange_out, .layout = FLUID_LAYOUT_EXCHANGE),

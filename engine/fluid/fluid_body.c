@@ -330,7 +330,19 @@ void virga_fluid_bodies(const virga_fluid *fluid, virga_fluid_buffer *bodies)
                       : (virga_fluid_buffer){0};
 }
 
+/* The pass body_near has written them over the touches. */
+void virga_fluid_bodies_near(const virga_fluid *fluid, virga_fluid_buffer *found)
+{
+    const bool any = fluid && fluid->base.contents && fluid->body_count && fluid->particles;
+    if (found)
+        *found = any ? (virga_fluid_buffer){fluid->touches->buffer, 0,
+                                            fluid->particles * (VkDeviceSize)sizeof(virga_body_near_gpu)}
+                     : (virga_fluid_buffer){0};
+}
+
 /* ---- a step */
+
+_Static_assert(sizeof(virga_body_near_gpu) == VIRGA_FLUID_TOUCHES * 16, "a particle's touches are as large");
 
 static void upload_maps(virga_fluid *fluid, VkCommandBuffer cmd)
 {

@@ -91,7 +91,7 @@ struct virga_fluid {
     virga_bindings *add_bindings, *bindings, *exchange_bindings;
     virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;
     virga_pipeline *exchange_spray, *exchange_in, *exchange_out;
-    virga_pipeline *body_contacts, *body_push, *body_move, *body_hit;
+    virga_pipeline *body_contacts, *body_push, *body_move, *body_hit, *body_near;
     virga_fluid_stats stats;
 
     uint32_t step_offset; /* of the block of the step */

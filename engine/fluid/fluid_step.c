@@ -261,7 +261,9 @@ static void begin_state(const virga_fluid *fluid, VkCommandBuffer cmd, float dt_
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
-static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_shapes_gpu *shapes)
+/* Substeps, then what is beside each particle. */
+static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_shapes_gpu *shapes,
+                         uint32_t substeps)
 {
     virga_context *context = fluid->base.context;
     virga_bound bound[VIRGA_MAX_BINDINGS];
@@ -273,8 +275,12 @@ static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fl
     virga_effect_bound(&fluid->base, fluid->grid.bindings, bound);
     bound[PARTICLE_GRID_BIND_PARTICLES] = (virga_bound){.buffer = fluid->slots->buffer};
     r.grid_set = virga_bindings_write(context, fluid->grid.bindings, 0, bound);
-    for (uint32_t i = 0; i < fluid->def.max_substeps; i++)
+    for (uint32_t i = 0; i < substeps; i++)
         substep(&r);
+    bind(&r, fluid->bindings, r.set);
+    if (fluid->body_count)
+        virga_dispatch_and_barrier(context, cmd, fluid->body_near,
+                                   virga_groups_of(fluid->particles, VIRGA_FLUID_LANES));
 }
 
 virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info)
@@ -296,8 +302,8 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     fluid->step_offset = virga_ring_push(context, &fluid->step_ring, &step, sizeof step);
     fluid_exchange_in(fluid, cmd, info);
     fluid->step_particles[context->ring_slot] = fluid->particles;
-    if ((fluid->particles || fluid->body_count) && info->dt_s > 0)
-        run_substeps(fluid, cmd, &shapes);
+    if (fluid->body_count || (fluid->particles && info->dt_s > 0))
+        run_substeps(fluid, cmd, &shapes, info->dt_s > 0 ? fluid->def.max_substeps : 0);
     fluid_exchange_out(fluid, cmd);
     virga_effect_copy_statistics(&fluid->base, cmd, 0, fluid->body_states, 0, offsetof(fluid_readback, bodies),
                                  sizeof(virga_fluid_body_gpu) * VIRGA_FLUID_MAX_BODIES);

@@ -377,6 +377,7 @@ static const virga_binding_kind foam_bindings[] = {
     TEXEL_BUFFER(grid.sorted),            /* 15 */
     TEXEL_BUFFER(grid.sorted_velocities), /* 16 */
     TEXEL_BUFFER(foam.normals),           /* 17 */
+    [WATER_BIND_BODIES] = {STORAGE, COMPUTE},
 };
 
 static const virga_effect_layout layouts[] = {

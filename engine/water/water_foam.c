@@ -47,6 +47,7 @@ void water_foam_fill(virga_water *water, const virga_water_step_info *info, virg
     fill_range(settings->foam_air_m_s, out->foam_air);
     fill_range(settings->foam_crest, out->foam_crest);
     fill_walls(settings, out);
+    out->bodies_given = info->bodies && info->count;
     out->foam_rates[0] = settings->foam_air_hz;
     out->foam_rates[1] = settings->foam_crest_hz;
     memcpy(out->foam_life_s, settings->foam_life_s, sizeof out->foam_life_s);

@@ -41,7 +41,7 @@ enum {
 };
 
 /* Bindings of the kernels' and the surface's passes that the effect binds itself. */
-enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17 };
+enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17, WATER_BIND_BODIES = 18 };
 
 #define WATER_KERNELS       2 /* virga_water_kernel */
 #define WATER_MAX_VIEWS     8 /* prepares in a frame */

@@ -204,6 +204,8 @@ static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, co
         (info->handed && virga_host_list_check(context, "step_info.handed", info->handed, info->handed_offset,
                                                info->handed_size, sizeof(virga_handed_droplets_gpu))))
         return VIRGA_ERROR_INVALID;
+    if (info->bodies && (particles_check(context, info->bodies, info->bodies_offset, info->count)))
+        return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&water->base);
 }
 
@@ -220,6 +222,9 @@ static VkDescriptorSet write_set(virga_water *water, const virga_bindings *layou
                                 .offset = info->handed_offset,
                                 .range = virga_host_list_range(water->base.context, info->handed_size, VK_WHOLE_SIZE)}
                 : (virga_bound){.buffer = water->surfels->buffer}; /* neither read nor written */
+    if (layout == water->foam.bindings)
+        bound[WATER_BIND_BODIES] =
+            particles_bound(info->bodies, info->bodies_offset, info->bodies ? particles : 0, water->surfels);
     return virga_bindings_write(water->base.context, (virga_bindings *)layout, 0, bound);
 }
 
@@ -247,6 +252,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     virga_effect_begin_step(&water->base, cmd);
     virga_effect_first_contents(&water->base, cmd);
     virga_effect_reads(&water->base, cmd, info->handed);
+    virga_effect_reads(&water->base, cmd, info->bodies);
     virga_effect_reads(&water->base, cmd, particles ? info->particles : VK_NULL_HANDLE);
     water_spray_clear(water, cmd);
     if (!info->sub_frame)

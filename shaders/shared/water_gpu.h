@@ -95,6 +95,7 @@ struct virga_water_step_gpu {
     float foam_buoyancy;    /* m/s^2, of bubbles */
     float foam_low[3];      /* m, walls */
     float foam_high[3];
+    uint bodies_given; /* 1: there is a virga_body_near_gpu for each particle */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -143,7 +144,7 @@ struct virga_water_piece_gpu {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 260);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 264);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_water_state_gpu, 212);
 #undef uint

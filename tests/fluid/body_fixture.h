@@ -59,25 +59,35 @@ static inline virga_fluid_pose pose_of(fluid_fixture *f, uint32_t body)
     return pose;
 }
 
+/* A vector that the body's rotation turns; `way` -1: back. */
+static inline void turn_by(const virga_fluid_pose *pose, double way, const double v[3], double out[3])
+{
+    const double q[4] = {way * (double)pose->rotation[0], way * (double)pose->rotation[1],
+                         way * (double)pose->rotation[2], (double)pose->rotation[3]};
+    double c[3];
+    /* v + 2 q x (q x v + w v) */
+    for (int k = 0; k < 3; k++)
+        c[k] = q[(k + 1) % 3] * v[(k + 2) % 3] - q[(k + 2) % 3] * v[(k + 1) % 3] + q[3] * v[k];
+    for (int k = 0; k < 3; k++)
+        out[k] = v[k] + 2 * (q[(k + 1) % 3] * c[(k + 2) % 3] - q[(k + 2) % 3] * c[(k + 1) % 3]);
+}
+
+/* Where a particle is in the axes of the body. */
+static inline void in_body(const virga_fluid_pose *pose, const float p[3], double at[3])
+{
+    double arm[3];
+    for (int axis = 0; axis < 3; axis++)
+        arm[axis] = (double)p[axis] - (double)pose->position_m[axis];
+    turn_by(pose, -1, arm, at);
+}
+
 /* How far a particle is inside a box of half sides (m); negative outside. */
 static inline double depth_in_box(const virga_fluid_pose *pose, const double half[3], const float p[3])
 {
-    double arm[3], back[3], deep = 1e30;
-    const double q[4] = {-(double)pose->rotation[0], -(double)pose->rotation[1], -(double)pose->rotation[2],
-                         (double)pose->rotation[3]};
+    double at[3], deep = 1e30;
+    in_body(pose, p, at);
     for (int axis = 0; axis < 3; axis++)
-        arm[axis] = (double)p[axis] - (double)pose->position_m[axis];
-    /* v + 2 q x (q x v + w v) */
-    double c[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        c[axis] = q[u] * arm[v] - q[v] * arm[u] + q[3] * arm[axis];
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        back[axis] = arm[axis] + 2 * (q[u] * c[v] - q[v] * c[u]);
-        deep = fmin(deep, half[axis] - fabs(back[axis]));
-    }
+        deep = fmin(deep, half[axis] - fabs(at[axis]));
     return deep;
 }
 

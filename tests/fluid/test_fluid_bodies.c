@@ -447,6 +447,105 @@ static void a_driven_body_is_where_the_host_wants_it(void **state)
     fluid_fixture_close(&f);
 }
 
+/* Which axis' side of a box a particle is beside, 2 spacings and more from its edges: 0 to 2. 3: it is beside an edge,
+ * that much from its ends. -1: neither. */
+static int beside_box(const double half[3], double d, const double at[3])
+{
+    int outside = 0, inside = 0, axis = -1;
+    for (int k = 0; k < 3; k++) {
+        const double over = fabs(at[k]) - half[k];
+        outside += over > 0.1 * d && over < 1.2 * d;
+        inside += over < -2 * d;
+        axis = over > 0 && over < 1.2 * d ? k : axis;
+    }
+    return outside == 2 && inside == 1 ? 3 : inside == 2 ? axis : -1;
+}
+
+typedef struct near_errors {
+    double distance, normal, velocity, share, edge;
+    uint32_t beside, edges;
+} near_errors;
+
+static void compare_near(const virga_fluid_pose *pose, const double half[3], const float p[3],
+                         const virga_body_near_gpu *near, near_errors *sum)
+{
+    const double d = (double)f.settings.spacing_m;
+    double at[3], side[3] = {0}, world[3], arm[3], spin[3];
+    in_body(pose, p, at);
+    const int axis = beside_box(half, d, at);
+    if (axis == 3) {
+        sum->edge += (double)near->share;
+        sum->edges++;
+    }
+    if (axis < 0 || axis == 3)
+        return;
+    side[axis] = copysign(1, at[axis]);
+    turn_by(pose, 1, side, world);
+    sum->beside++;
+    sum->distance = fmax(sum->distance, fabs((double)near->distance_m - fabs(at[axis]) + half[axis]));
+    sum->share = fmax(sum->share, fabs((double)near->share - 1));
+    for (int k = 0; k < 3; k++) {
+        arm[k] = (double)p[k] - (double)pose->center_m[k];
+        spin[k] = (double)pose->spin_rad_s[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        const double velocity = (double)pose->velocity_m_s[k] + spin[u] * arm[v] - spin[v] * arm[u];
+        sum->normal = fmax(sum->normal, fabs((double)near->normal[k] - world[k]));
+        sum->velocity = fmax(sum->velocity, fabs((double)near->velocity[k] - velocity));
+    }
+}
+
+static void read_near(host_buffer *down)
+{
+    virga_fluid_buffer found;
+    virga_fluid_bodies_near(f.fluid, &found);
+    assert_int_equal(found.size, f.count * sizeof(virga_body_near_gpu));
+    REQUIRE(host_buffer_create(&f.gpu.device, found.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
+                               "near down", down, f.gpu.error, sizeof f.gpu.error));
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    const VkBufferCopy copy = {found.offset, 0, found.size};
+    effect_fixture_transfers(cmd);
+    vkCmdCopyBuffer(cmd, found.buffer, down->buffer, 1, &copy);
+    effect_fixture_complete(&f.gpu, f.context);
+    host_buffer_invalidate(&f.gpu.device, down);
+}
+
+/* What the foam of water reads: distance, normal and velocity of a driven cube that moves and turns, beside the middle
+ * of its sides; and how much of it is behind particles at its edges. */
+static void particles_know_the_body_beside_them(void **state)
+{
+    (void)state;
+    const double d = 0.03, half[3] = {0.12, 0.12, 0.12};
+    const box_mesh box = box_of(2 * half[0], 2 * half[1], 2 * half[2]);
+    virga_fluid_pose wanted = {.position_m = {0.306f, 0.24f, 0.3f}, .rotation = {0, sinf(0.02f), 0, cosf(0.02f)}};
+    near_errors sum = {0};
+    host_buffer down;
+    body_fixture_open(&f);
+    fluid_fixture_box(&f, d, 0.6, 0.6, 0.6);
+    fluid_fixture_block(&f, 0, 0, 0, 0.6, 0.36, 0.6);
+    const virga_fluid_body body = body_of(&box, 0, 0.3, 0.24, 0.3);
+    body_fixture_add(&f, &body);
+    fluid_fixture_run(&f, 1);
+    REQUIRE(virga_fluid_body_drive(f.fluid, 0, &wanted) == VIRGA_OK);
+    fluid_fixture_run(&f, 1);
+    const virga_fluid_pose pose = pose_of(&f, 0);
+    read_near(&down);
+    const virga_body_near_gpu *near = down.mapped;
+    for (uint32_t i = 0; i < f.count; i++) {
+        REQUIRE(near[i].distance_m == 1e9f || near[i].distance_m < 2.1f * (float)d);
+        compare_near(&pose, half, f.particles[i].position, &near[i], &sum);
+    }
+    printf("%u particles beside sides: distance within %.1e spacings, normal %.1e, velocity %.1e m/s, share %.2f; "
+           "%u at edges: share %.2f\n",
+           sum.beside, sum.distance / d, sum.normal, sum.velocity, sum.share, sum.edges, sum.edge / sum.edges);
+    REQUIRE(sum.beside > 40 && sum.distance < 0.02 * d && sum.normal < 0.01 && sum.velocity < 1e-4);
+    REQUIRE(sum.share < 0.05);
+    REQUIRE(sum.edges > 10 && sum.edge / sum.edges < 0.95); /* maps round edges */
+    host_buffer_destroy(&f.gpu.device, &down);
+    fluid_fixture_close(&f);
+}
+
 static void a_body_falls_freely_and_rests_on_the_floor(void **state)
 {
     (void)state;
@@ -525,6 +624,7 @@ int main(void)
         cmocka_unit_test(wrong_bodies_are_refused),
         cmocka_unit_test(a_body_falls_freely_and_rests_on_the_floor),
         cmocka_unit_test(a_driven_body_is_where_the_host_wants_it),
+        cmocka_unit_test(particles_know_the_body_beside_them),
         cmocka_unit_test(momentum_of_water_and_a_body_is_kept),
         cmocka_unit_test(a_sinking_body_accelerates_by_what_buoyancy_leaves),
         cmocka_unit_test(a_splash_loses_energy_in_every_step_and_no_particle_is_in_the_body),

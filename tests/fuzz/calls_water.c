@@ -8,7 +8,7 @@
 static void fill_lists(calls *c, uint32_t context, virga_water_step_info *info)
 {
     const calls_handle fluid = calls_pick(c, CALLS_FLUID), splash = calls_pick(c, CALLS_SPLASH);
-    virga_fluid_buffer particles = {0};
+    virga_fluid_buffer particles = {0}, near = {0};
     virga_splash_buffer handed = {0};
     if (splash.object && splash.context == context && calls_once_in(c, 2))
         virga_splash_handed(splash.object, &handed);
@@ -18,13 +18,15 @@ static void fill_lists(calls *c, uint32_t context, virga_water_step_info *info)
         return;
     virga_fluid_particles(fluid.object, &particles, &info->count);
     info->particles = particles.buffer;
+    virga_fluid_bodies_near(fluid.object, &near);
+    info->bodies = near.buffer;
 }
 
 static void fill_water_step(calls *c, uint32_t context, virga_water_step_info *info)
 {
-    static const calls_member kept[] = {CALLS_KEPT(virga_water_step_info, particles),
-                                        CALLS_KEPT(virga_water_step_info, handed),
-                                        CALLS_BOOL(virga_water_step_info, sub_frame)};
+    static const calls_member kept[] = {
+        CALLS_KEPT(virga_water_step_info, particles), CALLS_KEPT(virga_water_step_info, handed),
+        CALLS_KEPT(virga_water_step_info, bodies), CALLS_BOOL(virga_water_step_info, sub_frame)};
     *info = (virga_water_step_info){.particles = calls_once_in(c, 6) ? VK_NULL_HANDLE : c->device->buffer(c),
                                     .count = calls_below(c, 200),
                                     .time_s = calls_number(c, 0, 10)};
@@ -214,6 +216,12 @@ void call_virga_fluid_bodies(calls *c)
 {
     virga_fluid_buffer bodies;
     CALLS_DO(c, virga_fluid_bodies, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &bodies);
+}
+
+void call_virga_fluid_bodies_near(calls *c)
+{
+    virga_fluid_buffer bodies;
+    CALLS_DO(c, virga_fluid_bodies_near, calls_pick(c, CALLS_FLUID).object, calls_slip(c, 8) ? NULL : &bodies);
 }
 
 /* ---- the lens */

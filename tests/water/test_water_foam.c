@@ -100,12 +100,13 @@ static double apart_of(uint32_t i, uint32_t j, double apart[3])
     return sqrt(dot(apart, apart));
 }
 
-/* Equation 2 of Ihmsen et al. 2012, and the normal. */
-static void find_air(uint32_t i, potentials *out)
+/* Equation 2 of Ihmsen et al. 2012, and the normal. `gradient`: the slope of the density, out of the water. */
+static void find_slope(uint32_t i, potentials *out, double gradient[3])
 {
     const double h = (double)f.settings.kernel_spacings * D;
-    double gradient[3] = {0}, apart[3], moved[3];
+    double apart[3], moved[3];
     *out = (potentials){.air = 0};
+    memset(gradient, 0, 3 * sizeof *gradient);
     for (uint32_t j = 0; j < f.count; j++) {
         const double r = apart_of(i, j, apart);
         if (r >= h || i == j)
@@ -124,6 +125,12 @@ static void find_air(uint32_t i, potentials *out)
     out->doubtful = fabs(steep * h - 0.3) < 1e-4;
     for (int k = 0; k < 3; k++)
         out->normal[k] = out->steep ? gradient[k] / steep : 0;
+}
+
+static void find_air(uint32_t i, potentials *out)
+{
+    double gradient[3];
+    find_slope(i, out, gradient);
 }
 
 /* Equations 3 and 4. */
@@ -233,6 +240,111 @@ static void water_that_meets_a_wall_traps_air(void **state)
     }
     printf("air within %.1e m/s, up to %.2f of it by walls\n", worst, most);
     REQUIRE(worst < 2e-3 && most > 1);
+    tear_down();
+}
+
+/* The slope of the density that the water behind a plane would add, over rings, with h = 1. */
+static double plane_slope(double u)
+{
+    enum { PLANES = 400 };
+    double sum = 0;
+    for (int i = 0; i < PLANES && u < 1; i++) {
+        const double s = u + (i + 0.5) * (1 - u) / PLANES, rest = 1 - s * s;
+        /* The integral of (1 - s^2 - x^2)^2 over the ring's plane is pi / 3 (1 - s^2)^3. */
+        sum += s * M_PI / 3 * rest * rest * rest * (1 - u) / PLANES;
+    }
+    return 6 * 315 / (64 * M_PI) * sum;
+}
+
+/* A cloud beside a plane that moves; each particle has a share of its own. Some are far from any body. */
+static void a_body_is_a_wall_that_moves(void **state)
+{
+    (void)state;
+    const double out[3] = {0.6, 0.8, 0}, body_velocity[3] = {-0.7, 1.1, 0.4};
+    host_buffer bodies;
+    double worst_air = 0, worst_normal = 0, most = 0, turned = 0;
+    uint32_t doubtful = 0;
+    set_up(1024);
+    random_cloud(300, 7 * D, 2);
+    REQUIRE(host_buffer_create(&f.gpu.device, f.count * sizeof(virga_body_near_gpu), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                               HOST_BUFFER_UPLOAD, "bodies", &bodies, f.gpu.error, sizeof f.gpu.error));
+    virga_body_near_gpu *near = bodies.mapped;
+    for (uint32_t i = 0; i < f.count; i++) {
+        const float *p = f.particles[i].position;
+        near[i].distance_m = i % 7 ? (float)(out[0] * (double)p[0] + out[1] * (double)p[1] - 0.03) : 1e9f;
+        near[i].share = 1 - 0.1f * (float)(i % 5);
+        for (int k = 0; k < 3; k++) {
+            near[i].normal[k] = (float)out[k];
+            near[i].velocity[k] = (float)body_velocity[k];
+        }
+    }
+    f.bodies = bodies.buffer;
+    step(STEP_S);
+    const double h = (double)f.settings.kernel_spacings * D;
+    for (uint32_t s = 0; s < f.stats.in_grid; s++) {
+        const uint32_t i = f.sorted_indices[s];
+        const double z = fmax((double)near[i].distance_m, 0), share = (double)near[i].share;
+        potentials p;
+        double into = 0, gradient[3], steep = 0;
+        find_slope(i, &p, gradient);
+        for (int k = 0; k < 3; k++) {
+            into -= ((double)f.particles[i].velocity[k] - body_velocity[k]) * out[k];
+            gradient[k] += share * plane_slope(z / h) / h * out[k];
+        }
+        const double body = share * fmax(into, 0) * wall_air(z);
+        worst_air = fmax(worst_air, fabs((double)normals[4 * s + 3] - p.air - body));
+        most = fmax(most, body);
+        steep = sqrt(dot(gradient, gradient));
+        doubtful += fabs(steep * h - 0.3) < 1e-3;
+        for (int k = 0; k < 3 && fabs(steep * h - 0.3) >= 1e-3; k++) {
+            const double normal = steep * h > 0.3 ? gradient[k] / steep : 0;
+            worst_normal = fmax(worst_normal, fabs((double)normals[4 * s + (uint32_t)k] - normal));
+            turned = fmax(turned, fabs(normal - p.normal[k]));
+        }
+    }
+    printf(
+        "air within %.1e m/s, up to %.2f of it by the body; normals within %.1e, turned by up to %.2f; %u doubtful\n",
+        worst_air, most, worst_normal, turned, doubtful);
+    REQUIRE(worst_air < 2e-3 && most > 1);
+    REQUIRE(worst_normal < 2e-3 && turned > 1 && doubtful < 5);
+    host_buffer_destroy(&f.gpu.device, &bodies);
+    f.bodies = VK_NULL_HANDLE;
+    tear_down();
+}
+
+/* A block of water runs against the side of a body and along it: its outermost layer there is no surface. */
+static void the_side_of_a_body_makes_no_crest(void **state)
+{
+    (void)state;
+    host_buffer bodies;
+    uint32_t surface[2] = {0}, made[2];
+    set_up(65536);
+    water_fixture_box(&f, (const double[3]){0.5 * D, 0, 0}, (const uint32_t[3]){10, 10, 10}, D, 0);
+    for (uint32_t i = 0; i < f.count; i++)
+        f.particles[i].velocity[0] = -2.5f;
+    f.settings.foam_air_hz = 0;
+    f.settings.foam_crest[0] = 0.01f;
+    f.settings.foam_crest[1] = 0.1f;
+    REQUIRE(host_buffer_create(&f.gpu.device, f.count * sizeof(virga_body_near_gpu), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                               HOST_BUFFER_UPLOAD, "bodies", &bodies, f.gpu.error, sizeof f.gpu.error));
+    virga_body_near_gpu *near = bodies.mapped;
+    for (uint32_t i = 0; i < f.count; i++)
+        near[i] = (virga_body_near_gpu){
+            .normal = {1}, .distance_m = f.particles[i].position[0], .velocity = {-2.5f}, .share = 1};
+    for (int with = 0; with < 2; with++) {
+        f.bodies = with ? bodies.buffer : VK_NULL_HANDLE;
+        step(STEP_S);
+        step(STEP_S);
+        made[with] = counts->foam_wanted;
+        for (uint32_t s = 0; s < f.stats.in_grid; s++)
+            surface[with] += normals[4 * s] < -0.5f;
+    }
+    printf("%u particles have a surface towards the body without it, %u with it; %u and %u particles of foam\n",
+           surface[0], surface[1], made[0], made[1]);
+    REQUIRE(surface[0] >= 64 && surface[1] == 0);
+    REQUIRE(made[0] > 50 && made[1] == 0);
+    host_buffer_destroy(&f.gpu.device, &bodies);
+    f.bodies = VK_NULL_HANDLE;
     tear_down();
 }
 
@@ -512,6 +624,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(potentials_are_those_of_the_paper),
         cmocka_unit_test(water_that_meets_a_wall_traps_air),
+        cmocka_unit_test(a_body_is_a_wall_that_moves),
+        cmocka_unit_test(the_side_of_a_body_makes_no_crest),
         cmocka_unit_test(the_number_of_foam_is_a_rate_times_time),
         cmocka_unit_test(foam_dissolves_at_the_end_of_its_life),
         cmocka_unit_test(a_full_pool_makes_no_more_and_says_so),

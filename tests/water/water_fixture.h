@@ -20,6 +20,7 @@ typedef struct water_fixture {
     virga_particle_gpu *particles; /* of the next step */
     uint32_t count;
     double origin_m[3], time_s;
+    VkBuffer bodies; /* (optional) of the next step */
     bool sub_frame;
     /* Read back. */
     const float *densities;
@@ -82,8 +83,11 @@ static inline virga_result water_fixture_try(water_fixture *f)
 {
     VkDeviceSize offset = 0;
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
-    virga_water_step_info info = {
-        .particles = f->particle_buffer.buffer, .count = f->count, .time_s = f->time_s, .sub_frame = f->sub_frame};
+    virga_water_step_info info = {.particles = f->particle_buffer.buffer,
+                                  .count = f->count,
+                                  .time_s = f->time_s,
+                                  .sub_frame = f->sub_frame,
+                                  .bodies = f->bodies};
     memcpy(info.origin_m, f->origin_m, sizeof info.origin_m);
     const virga_result result = virga_water_step(f->water, cmd, &info);
     effect_fixture_transfers(cmd);

@@ -26,6 +26,7 @@
 #ifndef VIRGA_FLUID_H
 #define VIRGA_FLUID_H
 
+#include <virga/shared/body_near.h>
 #include <virga/shared/fluid_body.h>
 #include <virga/shared/particle.h>
 #include <virga/vulkan.h>
@@ -307,6 +308,12 @@ VIRGA_API void virga_fluid_pressures(const virga_fluid *fluid, virga_fluid_buffe
 /* Reads where the bodies are: VIRGA_FLUID_MAX_BODIES virga_fluid_body_gpu, as the newest step left them; for hosts that
  * draw a body in the frame of its step. Ready to be read by transfers and compute shaders. Size 0: there are none. */
 VIRGA_API void virga_fluid_bodies(const virga_fluid *fluid, virga_fluid_buffer *bodies);
+
+/* Reads where the nearest body to each particle is: a virga_body_near_gpu for each, in the order of the particles, as
+ * the newest step left them; for virga_water_step_info.bodies. Bodies farther away than two spacings count as none. At
+ * edges, which the maps of bodies round, the share is 0.9 in the mean. Ready to be read by transfers and compute
+ * shaders. Size 0: there are no bodies, or no particles. */
+VIRGA_API void virga_fluid_bodies_near(const virga_fluid *fluid, virga_fluid_buffer *found);
 
 /* The newest statistics of completed frames. */
 typedef struct virga_fluid_stats {

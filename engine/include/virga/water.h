@@ -30,6 +30,7 @@
 #define VIRGA_WATER_H
 
 #include <virga/light.h>
+#include <virga/shared/body_near.h>
 #include <virga/shared/foam.h>
 #include <virga/shared/handed_droplet.h>
 #include <virga/shared/leaver.h>
@@ -233,7 +234,8 @@ typedef struct virga_water_settings {
 
     /* [-10000; 10000] two opposite corners of a box around the water (m), in the axes and from the origin of the
      * particles. Its walls trap air as particles at rest behind them would: with the speed of the water into the wall.
-     * Water that slides along a wall makes no foam there. The same corner twice (default): no walls. */
+     * Water that slides along a wall makes no foam there. Bodies: virga_water_step_info.bodies. The same corner twice
+     * (default): no walls. */
     float foam_walls_low_m[3], foam_walls_high_m[3];
 
     /* [0; 10] range of a crest's curvature: the mean of 1 - cos of the angles between the normals of a particle and of
@@ -361,6 +363,14 @@ typedef struct virga_water_step_info {
     /* A multiple of the device's minStorageBufferOffsetAlignment and of 4; and bytes from there, 0: all of the buffer.
      */
     VkDeviceSize handed_offset, handed_size;
+
+    /* (optional) Solid bodies in the water, for its foam: `count` virga_body_near_gpu from `bodies_offset` on, one for
+     * each particle in their order; a storage buffer, ready to be read by compute shaders. virga_fluid_bodies_near has
+     * them; a host with bodies of its own writes them in a pass over its particles. Water beside a body then has no
+     * surface there, so that the body's side is no crest, and water that meets a body traps air as at a wall, with the
+     * speed of one to the other. VK_NULL_HANDLE: there are none. The offset is as that of the particles. */
+    VkBuffer bodies;
+    VkDeviceSize bodies_offset;
 } virga_water_step_info;
 
 /* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device

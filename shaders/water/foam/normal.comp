@@ -13,13 +13,20 @@
 //
 // where A is the integral of W over that space and B that of W times the cosine to the wall's normal.
 //
-// The normal is that of the density, and only where its slope is steep: at the surface.
-// One invocation per sorted particle. Reads: sorted, sorted_velocities. Writes: normals.
+// A body beside a particle is such a wall that moves: v is the speed of the water into it.
+//
+// The normal is that of the density, and only where its slope is steep: at the surface. A body counts as water there:
+// behind a plane at the distance z its slope is, with the kernel of virga_water_step_gpu,
+//
+//     315 / 256 (1 - u^2)^4 / h
+//
+// One invocation per sorted particle. Reads: sorted, sorted_velocities, bodies. Writes: normals.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define STATE_ACCESS readonly
 #include "foam.glsl"
+#include "shared/body_near.h"
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
@@ -58,6 +65,22 @@ float walls_air()
     return sum;
 }
 
+layout(scalar, set = 0, binding = 18) readonly buffer Bodies { virga_body_near_gpu bodies[]; };
+
+// What a body adds: to the slope, out of the surface; and w, to the air.
+vec4 body_part(uint particle)
+{
+    if (frame.bodies_given == 0u)
+        return vec4(0.0);
+    const virga_body_near_gpu body = bodies[particle];
+    if (!(body.distance_m < frame.cell_m)) // also NaN
+        return vec4(0.0);
+    const vec3 normal = to_vec(body.normal), moved = velocity - to_vec(body.velocity);
+    const float u = max(body.distance_m * frame.inv_cell_m, 0.0), inside2 = (1.0 - u * u) * (1.0 - u * u);
+    const float slope = 315.0 / 256.0 * inside2 * inside2 * frame.inv_cell_m;
+    return clamp(body.share, 0.0, 1.0) * vec4(slope * normal, wall_air(body.distance_m, -dot(moved, normal)));
+}
+
 // Of the slope of the density, times h. In the outermost layer of a flat surface with h = 2 spacings it is 0.95, in the
 // one below it 0.045.
 #define STEEP 0.3
@@ -73,8 +96,9 @@ void main()
     gradient = vec3(0.0);
     air = 0.0;
     gather(cell_at(here));
-    const vec3 slope = frame.kernel_gradient * gradient;
-    const float steep = length(slope);
-    normals[own] = vec4(steep * frame.cell_m > STEEP ? -slope / steep : vec3(0.0),
-                        air * frame.foam_inv_weights + walls_air());
+    const vec4 body = body_part(sorted_indices[own]);
+    const vec3 out_of_water = body.xyz - frame.kernel_gradient * gradient;
+    const float steep = length(out_of_water);
+    normals[own] = vec4(steep * frame.cell_m > STEEP ? out_of_water / steep : vec3(0.0),
+                        air * frame.foam_inv_weights + walls_air() + body.w);
 }

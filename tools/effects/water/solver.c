@@ -231,10 +231,13 @@ bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_s
     memcpy(info->origin_m, from->position_m, sizeof info->origin_m);
     info->count = solver->count;
     if (newest) {
-        virga_fluid_buffer particles;
+        virga_fluid_buffer particles, bodies;
         virga_fluid_particles(solver->fluid, &particles, NULL);
+        virga_fluid_bodies_near(solver->fluid, &bodies);
         info->particles = particles.buffer;
         info->offset = particles.offset;
+        info->bodies = bodies.buffer;
+        info->bodies_offset = bodies.offset;
     } else {
         info->particles = state->particles.buffer;
         info->offset = s->device.frame % HOST_FRAMES * state->max_particles * sizeof(virga_particle_gpu);
