@@ -91,7 +91,7 @@ float shelter_open(vec3 relative, vec3 n, out float near_m)
     for (int i = 0; i < SHELTER_LOOKS; i++) {
         const vec2 apart = mean - virga_wall_slant(mean, spread, SHELTER_AT[i], n);
         bool met = shelter_met(at, point.y, apart, near_m);
-        if (!met && far_m > 1.5 * near_m)
+        if (far_m > 1.5 * near_m && !met)
             met = shelter_met(at, point.y, apart, far_m);
         blocked += float(met);
     }
@@ -115,8 +115,11 @@ float ledge_streaks(float u, float y, float below_m, float flow, float pixel_m)
     return in_streak * step(chance, 0.7 * flow) * (1.0 - smoothstep(0.7, 1.0, below_m / length_m));
 }
 
+// Irregularities of edges between wet and dry, at a place along a wall and its height.
+float wall_grain(vec2 at) { return 0.6 * wall_noise(14.0 * at) + 0.4 * wall_noise(45.0 * at); }
+
 // Splashes from wet ground.
-float wall_foot(vec3 relative, vec3 n, float fall_mm_h, float noise)
+float wall_foot(vec3 relative, vec3 n, vec2 place, float fall_mm_h)
 {
     const float inv_cell = frame.ground_low.w, reach_m = FOOT_M * sqrt(fall_mm_h / FOOT_FALL_MM_H);
     const vec2 at = (relative.xz + 0.1 * n.xz - frame.ground_low.xz) * inv_cell;
@@ -126,8 +129,17 @@ float wall_foot(vec3 relative, vec3 n, float fall_mm_h, float noise)
         return 0.0;
     const vec4 ground = virga_ground_texel(wet_map, ivec2(frame.ground_wrap.xy), cells, cell);
     const float height_m = relative.y - frame.ground_low.y - ground.a;
-    const float high = reach_m * (0.55 + 0.9 * noise);
-    return height_m > -0.3 ? ground.r * (1.0 - smoothstep(0.35 * high, 1.3 * high, height_m)) : 0.0;
+    if (height_m < -0.3 || height_m > 2.0 * reach_m)
+        return 0.0;
+    const float high = reach_m * (0.55 + 0.9 * wall_grain(place));
+    return ground.r * (1.0 - smoothstep(0.35 * high, 1.3 * high, height_m));
+}
+
+// Share of a film that is left where it runs: it is thicker in rivulets, which keep to their paths.
+float wall_rivulets(vec2 place)
+{
+    const float path = 22.0 * place.x + 0.6 * wall_noise(3.0 * place);
+    return mix(0.3, 1.0, smoothstep(0.4, 0.8, wall_noise(vec2(path, 1.1 * place.y))));
 }
 
 vec4 wall_row(uint row, int material) { return frame.walls[int(row) * HOST_WALL_MATERIALS + material]; }
@@ -136,6 +148,7 @@ vec4 wall_row(uint row, int material) { return frame.walls[int(row) * HOST_WALL_
 Wall wall_at(vec3 relative, vec3 n, int material, bool ground)
 {
     Wall wall = Wall(0.0, 0.0);
+    const float pixel_m = max(length(dFdx(relative)), length(dFdy(relative)));
     if (frame.shelter_low.w <= 0.0 || material < 0)
         return wall;
     const virga_wall_look look = virga_wall_rows(n);
@@ -143,29 +156,28 @@ Wall wall_at(vec3 relative, vec3 n, int material, bool ground)
     const vec4 sides[2] = vec4[](wall_row(look.rows.x, material), wall_row(look.rows.y, material));
     const vec4 row = look.weights.x * sides[0] + look.weights.y * sides[1] + look.weights.z * level;
     const float share = ground ? 1.0 - smoothstep(HOST_LEVEL_Y, 0.6, n.y) : 1.0;
-    const float pixel_m = max(length(dFdx(relative)), length(dFdy(relative)));
+    if (share <= 0.0)
+        return wall;
     const vec3 world = relative + frame.camera.xyz;
-    const float along = n.z * world.x - n.x * world.z + 17.0 * n.x; // along the wall
-    const float noise = wall_noise(vec2(along, world.y) * 14.0) * 0.6 + wall_noise(vec2(along, world.y) * 45.0) * 0.4;
+    const vec2 place = vec2(n.z * world.x - n.x * world.z + 17.0 * n.x, world.y);
     if (row.x > 0.01) {
         float near_m;
         const float open = shelter_open(relative, n, near_m);
         // What is soaked in the open has had enough where a part of the rain arrives.
-        const float enough = mix(0.9, 0.45, smoothstep(0.0, 0.06, row.y));
-        const float wet = smoothstep(0.05, enough, open + 1.8 * (noise - 0.5) * open * (1.0 - open));
-        const float run = clamp(row.z / RUN_FULL_MM_H, 0.0, 1.0), flow = clamp(level.z / RUN_FULL_MM_H, 0.0, 1.0);
-        const float streak = open < 0.95 && near_m < 1.0 && abs(n.y) < 0.4
-                                 ? ledge_streaks(along, world.y, near_m, flow, pixel_m)
-                                 : 0.0;
-        // Where it runs, the film is thicker in rivulets, which keep to their paths.
-        const float path = 22.0 * along + 0.6 * wall_noise(vec2(along, world.y) * 3.0);
-        const float rivulets = wall_noise(vec2(path, world.y * 1.1));
-        const float upright = 1.0 - smoothstep(0.2, 0.6, abs(n.y));
-        const float thick = mix(1.0, mix(0.3, 1.0, smoothstep(0.4, 0.8, rivulets)), upright * run);
+        const float enough = mix(0.9, 0.45, smoothstep(0.0, 0.06, row.y)), part = open * (1.0 - open);
+        const float uneven = part > 0.0 ? 1.8 * (wall_grain(place) - 0.5) * part : 0.0;
+        const float wet = smoothstep(0.05, enough, open + uneven);
+        const float run = clamp(row.z / RUN_FULL_MM_H, 0.0, 1.0) * (1.0 - smoothstep(0.2, 0.6, abs(n.y)));
+        const float flow = clamp(level.z / RUN_FULL_MM_H, 0.0, 1.0);
+        float streak = 0.0, thick = 1.0;
+        if (open < 0.95 && near_m < 1.0 && abs(n.y) < 0.4)
+            streak = ledge_streaks(place.x, place.y, near_m, flow, pixel_m);
+        if (run > 0.0)
+            thick = mix(1.0, wall_rivulets(place), run);
         wall.damp = max(smoothstep(0.0, 0.85, row.x) * wet, 0.9 * streak);
         wall.film = max(smoothstep(0.01, 0.07, row.y) * wet * thick, 0.8 * streak);
     }
-    const float foot = abs(n.y) < 0.7 ? wall_foot(relative, n, level.w, noise) : 0.0;
+    const float foot = abs(n.y) < 0.7 ? wall_foot(relative, n, place, level.w) : 0.0;
     wall.damp = share * max(wall.damp, foot);
     wall.film = share * max(wall.film, 0.7 * foot);
     return wall;
