@@ -189,7 +189,7 @@ void wet_wall(Wall wall, float metallic, inout vec3 albedo, inout float roughnes
     const float porous = clamp((roughness - 0.5) / 0.3, 0.0, 1.0);
     const vec3 dark = 0.934 * 0.53 * albedo / (1.0 - 0.47 * albedo);
     albedo = mix(albedo, dark, wall.damp * porous * (1.0 - metallic));
-    const float smooth_film = mix(0.15, 0.42, porous); // a film over what is rough follows it in part
+    const float smooth_film = mix(0.15, 0.62, porous); // a film over what is rough follows it in part
     const float under = mix(roughness, 0.75 * roughness, wall.damp * porous);
     roughness = mix(under, min(under, smooth_film), wall.film * (1.0 - 0.6 * metallic));
     f0 = mix(f0, max(f0 - 0.02, vec3(0.0204)), wall.film * (1.0 - metallic));
