@@ -89,6 +89,38 @@ static void rain_over_the_budget_is_smaller_and_falls(void **state)
     virga_context_destroy(&context);
 }
 
+/* Water, and its solver, for half the memory that they ask for. */
+static void water_over_the_budget_is_smaller(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_water_def water_def = virga_default_water_def();
+    water_def.max_width = water_def.max_height = 256; /* images do not shrink, and are more than half otherwise */
+    const virga_fluid_def fluid_def = virga_default_fluid_def();
+    const VkDeviceSize whole[2] = {virga_water_estimate(&water_def), virga_fluid_estimate(&fluid_def)};
+    for (int i = 0; i < 4; i++) {
+        virga_context_def def = gpu_context_def(f);
+        virga_context *context = NULL;
+        virga_water *water = NULL;
+        virga_fluid *fluid = NULL;
+        def.pipeline_build_mode = VIRGA_PIPELINES_DEFERRED;                          /* none of which are built */
+        def.memory_budget = i < 2 ? whole[i] / 2 : whole[i - 2] + whole[i - 2] / 16; /* pages are not full */
+        watch.max_bytes = 0;
+        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+        gpu_forget_log(f);
+        const virga_result result =
+            i & 1 ? virga_fluid_create(context, &fluid_def, &fluid) : virga_water_create(context, &water_def, &water);
+        if (result != (i < 2 ? VIRGA_DEGRADED : VIRGA_OK))
+            fail_msg("%d: %s: %s", i, virga_result_name(result), f->last);
+        assert_int_equal(f->lines[VIRGA_LOG_SHRUNK], i < 2);
+        assert_int_equal(f->errors, 0);
+        virga_fluid_destroy(&fluid);
+        virga_water_destroy(&water);
+        virga_context_destroy(&context);
+        assert_true(watch.max_bytes <= def.memory_budget);
+        assert_int_equal(watch_sum(watch.live), 0);
+    }
+}
+
 /* Splashes whose memory is nearly all for water that falls back: this list becomes smaller too, but not smaller than
  * the spawns of a step, whose water may all come back at once. */
 static void list_of_returned_droplets_gives_way(void **state)
@@ -185,6 +217,7 @@ int main(void)
         gpu_kept_test(budget_is_never_passed),
         gpu_kept_test(budget_is_for_what_is_used),
         gpu_kept_test(rain_over_the_budget_is_smaller_and_falls),
+        gpu_kept_test(water_over_the_budget_is_smaller),
         gpu_kept_test(list_of_returned_droplets_gives_way),
         gpu_kept_test(estimate_of_a_scene_is_enough),
         gpu_kept_test(scene_fits_into_any_budget),

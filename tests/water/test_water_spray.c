@@ -116,6 +116,49 @@ static void spray_leaves_the_surface(void **state)
     water_fixture_close(&f);
 }
 
+/* A point of the pattern in the unit ball: see shaders/water/spray/pattern.glsl. The radius is the cube root of the van
+ * der Corput sequence. */
+static void pattern_point(uint32_t id, uint32_t i, uint32_t count, double point[3])
+{
+    const double angle = 2.39996323 * i + 2 * M_PI * (double)virga_unit(virga_hash1(id));
+    const double z = 1 - (2 * i + 1.0) / count, side = sqrt(1 - z * z);
+    double share = 0;
+    for (uint32_t rest = i + 1, digit = 1; rest; rest /= 2, digit++)
+        share += (rest & 1) * pow(0.5, digit);
+    point[0] = cbrt(share) * side * cos(angle);
+    point[1] = cbrt(share) * side * sin(angle);
+    point[2] = cbrt(share) * z;
+}
+
+/* Where the droplets of a particle are, for each number of them from 1 to 25. */
+static void droplets_have_the_pattern_of_their_number(void **state)
+{
+    (void)state;
+    set_up();
+    f.settings.spray_pieces = 25;
+    for (int i = 0; i < 25; i++) {
+        add_drop(0.1 * (i % 5), 0.1 * (i / 5), (i + 0.5) / 24 * (double)f.settings.spray_speed_m_s);
+        f.particles[i].id = 1000 + 77 * (uint32_t)i;
+    }
+    water_fixture_step(&f);
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < 25; i++) {
+        const uint32_t count = i < 24 ? i + 1 : 25;
+        for (uint32_t k = 0; k < count; k++, at++) {
+            double point[3] = {0};
+            if (count > 1)
+                pattern_point(f.particles[i].id, k, count, point);
+            for (int axis = 0; axis < 3; axis++)
+                assert_float_equal((double)f.droplets[at].position[axis],
+                                   (double)f.particles[i].position[axis] +
+                                       0.02 * (double)f.settings.spray_pattern * point[axis],
+                                   1e-6);
+        }
+    }
+    assert_int_equal(f.stats.droplets, at);
+    water_fixture_close(&f);
+}
+
 /* Equation 3, and the number of droplets by the speed. */
 static void droplets_share_the_volume_of_their_particle(void **state)
 {
@@ -323,6 +366,7 @@ int main(void)
         cmocka_unit_test(above_the_largest_level_droplets_keep_their_radius),
         cmocka_unit_test(particles_of_low_density_become_spray_and_no_others),
         cmocka_unit_test(spray_leaves_the_surface),
+        cmocka_unit_test(droplets_have_the_pattern_of_their_number),
         cmocka_unit_test(droplets_share_the_volume_of_their_particle),
         cmocka_unit_test(the_largest_speed_counts_until_the_particle_is_water_again),
         cmocka_unit_test(sub_frames_leave_no_state),
