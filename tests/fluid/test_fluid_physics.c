@@ -76,7 +76,7 @@ static void a_collapse_loses_energy_in_every_step(void **state)
     for (int i = 0; i < 90; i++) {
         fluid_fixture_run(&f, 1);
         const double energy = fluid_energy(&f);
-        if (energy > before + 0.001 * first)
+        if (energy > before)
             fail_msg("step %d: %g m^2/s^2 after %g", i, energy, before);
         before = energy;
     }
@@ -120,7 +120,7 @@ static void water_at_rest_keeps_its_volume_and_has_hydrostatic_pressure(void **s
     for (int bin = 0; bin < BINS; bin++) {
         const double expected = GRAVITY * (found - heights[bin] / counts[bin]), pressure = sums[bin] / counts[bin];
         printf("%.3f m: %.4f m^2/s^2, %.4f expected\n", heights[bin] / counts[bin], pressure, expected);
-        REQUIRE(fabs(pressure - expected) < 0.02 * GRAVITY * depth);
+        REQUIRE(fabs(pressure / expected - 1) < 0.05);
     }
     fluid_fixture_close(&f);
 }

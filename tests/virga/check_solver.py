@@ -33,7 +33,7 @@ for frame in range(frames[0], frames[-1] + 1):
         wrong.append(f"frame {frame}: {solver}")
     if abs(water["volume_l"] / (WHOLE * SIDE ** 3 * 1000) - 1) > 1e-6:
         wrong.append(f"frame {frame}: {water['volume_l']} l")
-    if not 0 <= solver["volume_error"] < 0.02:
+    if not 0 <= solver["volume_error"] < 0.01:
         wrong.append(f"frame {frame}: the volume is wrong by {solver['volume_error']}")
     # The statistics against the particles: energy over the floor of the walls.
     mass = 1000 * SIDE ** 3
