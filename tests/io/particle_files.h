@@ -35,7 +35,7 @@ static inline void put_number(FILE *to, particle_file_kind kind, double value, i
     uint64_t bits = (uint64_t)(int64_t)value;
     uint32_t half;
     if (kind == FILE_PLY_ASCII || kind == FILE_VTK_FIELD_ASCII || kind == FILE_VTK_ARRAYS_ASCII) {
-        fprintf(to, "%.9g ", value);
+        fprintf(to, "%.17g ", value);
         return;
     }
     memcpy(&half, &single, sizeof half);

@@ -220,6 +220,109 @@ static void memory_is_taken_as_rows_come(void **state)
     assert_error("short.ply", "the file ends at byte");
 }
 
+/* ---- every scalar type of PLY */
+
+static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+
+typedef struct ply_type {
+    const char *name;
+    int size;
+    bool real;
+    double value; /* what only this type has: its end, or all bits of a float */
+} ply_type;
+
+static const ply_type ply_types[] = {
+    {"char", 1, false, -128},
+    {"int8", 1, false, 127},
+    {"uchar", 1, false, 255},
+    {"uint8", 1, false, 128},
+    {"short", 2, false, -32768},
+    {"int16", 2, false, 32767},
+    {"ushort", 2, false, 65535},
+    {"uint16", 2, false, 32768},
+    {"int", 4, false, -2147483648.0},
+    {"int32", 4, false, 16711935},
+    {"uint", 4, false, 4294967040.0},
+    {"uint32", 4, false, 2147483648.0},
+    {"long", 8, false, -1099511627776.0},
+    {"int64", 8, false, 1099511627776.0},
+    {"ulong", 8, false, 281474959933440.0},
+    {"uint64", 8, false, 4294967296.0},
+    {"float", 4, true, 0x1.fffffep-3},
+    {"float32", 4, true, -0x1.000002p20},
+    {"double", 8, true, 0x1.fffffep-30},
+    {"float64", 8, true, -0x1.8p100},
+};
+
+/* Every column has this type, and a column that is skipped is behind each. The value goes through all columns. */
+static void read_ply_type(particle_file_kind kind, const ply_type *type, const ply_type *beside)
+{
+    static const char *const columns[] = {"x", "y", "z", "vx", "vy", "vz", "density"};
+    enum { COLUMNS = COUNT(columns), ROWS = 2 * COLUMNS };
+    particle_file file = {0};
+    particles read;
+    FILE *to = open_memstream(&file.data, &file.size);
+    fprintf(to, "ply\nformat %s 1.0\nelement vertex %d\n", formats[kind], ROWS);
+    for (int k = 0; k < COLUMNS; k++)
+        fprintf(to, "property %s %s\nproperty %s skipped%d\n", type->name, columns[k], beside->name, k);
+    fputs("end_header\n", to);
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < COLUMNS; k++) {
+            put_number(to, kind, i % COLUMNS == k ? type->value : 1 + k, type->size, type->real);
+            put_number(to, kind, beside->value, beside->size, beside->real);
+        }
+    fclose(to);
+    put_file(in_folder("typed.ply"), file.data, file.size);
+    must_read(in_folder("typed.ply"), &read);
+    assert_int_equal(read.count, ROWS);
+    assert_non_null(read.velocity);
+    assert_non_null(read.density);
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < COLUMNS; k++) {
+            const float got = k < 3 ? read.position[i][k] : k < 6 ? read.velocity[i][k - 3] : read.density[i];
+            const double expected = i % COLUMNS == k ? type->value : 1 + k;
+            if ((double)got != expected)
+                fail_msg("%s, property %s %s is %.9g, expected %.9g", formats[kind], type->name, columns[k],
+                         (double)got, expected);
+        }
+    particles_free(&read);
+    free(file.data);
+}
+
+static void each_type_of_ply_is_read_exactly(void **state)
+{
+    (void)state;
+    for (int kind = FILE_PLY_ASCII; kind <= FILE_PLY_BIG; kind++)
+        for (size_t i = 0; i < COUNT(ply_types); i++)
+            read_ply_type((particle_file_kind)kind, &ply_types[i], &ply_types[(i + 7) % COUNT(ply_types)]);
+}
+
+/* Floats too: programs with one type for all columns write ids so. */
+static void each_type_of_ply_can_be_an_id(void **state)
+{
+    (void)state;
+    for (int kind = FILE_PLY_ASCII; kind <= FILE_PLY_BIG; kind++)
+        for (size_t i = 0; i < COUNT(ply_types); i++) {
+            const ply_type *type = &ply_types[i];
+            const double id = type->size == 1 || type->value < 0 || type->size == 8 || type->real ? 100 : type->value;
+            particle_file file = {0};
+            particles read;
+            FILE *to = open_memstream(&file.data, &file.size);
+            fprintf(to, "ply\nformat %s 1.0\nelement vertex 1\n" XYZ "property %s id\nend_header\n", formats[kind],
+                    type->name);
+            for (int k = 0; k < 3; k++)
+                put_number(to, (particle_file_kind)kind, k, 4, true);
+            put_number(to, (particle_file_kind)kind, id, type->size, type->real);
+            fclose(to);
+            put_file(in_folder("id.ply"), file.data, file.size);
+            must_read(in_folder("id.ply"), &read);
+            assert_non_null(read.id);
+            assert_true((double)read.id[0] == id);
+            particles_free(&read);
+            free(file.data);
+        }
+}
+
 /* Files of another program; they are not part of the project. */
 static void files_of_splishsplash_are_read(void **state)
 {
@@ -258,6 +361,8 @@ int main(void)
         TEST_IN_FOLDER(wrong_files_are_one_line),
         TEST_IN_FOLDER(what_has_no_end_is_refused),
         TEST_IN_FOLDER(memory_is_taken_as_rows_come),
+        TEST_IN_FOLDER(each_type_of_ply_is_read_exactly),
+        TEST_IN_FOLDER(each_type_of_ply_can_be_an_id),
         TEST_IN_FOLDER(files_of_splishsplash_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
