@@ -140,26 +140,39 @@ static double sum_of_shares(const particle_sample *samples, uint32_t count)
     return sum;
 }
 
-/* Particles that fall. Moved by velocity alone from both ends they are off by at most g h^2 / 2. */
-static void without_ids_both_files_fade_and_the_volume_stays(void **state)
+/* Each file's particles go on along their own velocities, with shares of 1 - w and w: w = 3 s^2 - 2 s^3. Here the
+ * velocities do not lead from one file to the other, so the two sets stay apart. */
+static void without_ids_both_files_fade_and_move_by_their_velocities(void **state)
 {
     (void)state;
     enum { COUNT_OF = 10 };
-    row a[COUNT_OF], b[COUNT_OF];
+    const double h = 0.1;
+    row files[2][COUNT_OF];
     for (uint32_t i = 0; i < COUNT_OF; i++) {
-        a[i] = (row){{(float)i, 0, 0}, {0, 0, 0}, 0};
-        b[COUNT_OF - 1 - i] = (row){{(float)i, -0.5f * 9.81f * 0.01f, 0}, {0, -0.981f, 0}, 0};
+        const float n = 0.1f * (float)i;
+        files[0][i] = (row){{n, 0, -n}, {1 + n, -2, 3 * n}, 0};
+        files[1][COUNT_OF - 1 - i] = (row){{n, -0.5f, n}, {-2, n - 1, 4}, 0};
     }
-    put_frame(0, a, COUNT_OF, WITH_VELOCITY);
-    put_frame(1, b, COUNT_OF, WITH_VELOCITY);
+    put_frame(0, files[0], COUNT_OF, WITH_VELOCITY);
+    put_frame(1, files[1], COUNT_OF, WITH_VELOCITY);
     particle_sequence *sequence = open_with(plain);
-    for (double t = 0; t < 0.1; t += 0.01) {
+    for (int step = 0; step < 10; step++) {
         uint32_t count;
-        const particle_sample *samples = sample(sequence, t, &count);
-        assert_int_equal(count, t > 0 ? 2 * COUNT_OF : COUNT_OF);
+        const double s = 0.1 * step, faded = s * s * (3 - 2 * s);
+        const particle_sample *samples = sample(sequence, s * h, &count);
+        assert_int_equal(count, step ? 2 * COUNT_OF : COUNT_OF);
         assert_true(fabs(sum_of_shares(samples, count) - COUNT_OF) < 1e-5);
-        for (uint32_t i = 0; i < count; i++)
-            assert_true(fabs((double)samples[i].position[1] + 0.5 * 9.81 * t * t) < 0.5 * 9.81 * 0.01);
+        for (uint32_t i = 0; i < count; i++) {
+            const bool second = i >= COUNT_OF;
+            const row *from = &files[second][i % COUNT_OF];
+            const double dt = second ? (s - 1) * h : s * h;
+            assert_true(fabs((double)samples[i].share - (second ? faded : 1 - faded)) < 1e-6);
+            for (int axis = 0; axis < 3; axis++) {
+                const double v = (double)from->velocity[axis];
+                assert_true(fabs((double)samples[i].position[axis] - ((double)from->position[axis] + v * dt)) < 1e-6);
+                assert_true((double)samples[i].velocity[axis] == v);
+            }
+        }
     }
     particle_sequence_close(sequence);
 }
@@ -352,7 +365,7 @@ int main(void)
         TEST_IN_FOLDER(an_orbit_is_followed_by_id),
         TEST_IN_FOLDER(rows_are_ids_if_so_requested),
         TEST_IN_FOLDER(without_velocities_the_path_is_a_line),
-        TEST_IN_FOLDER(without_ids_both_files_fade_and_the_volume_stays),
+        TEST_IN_FOLDER(without_ids_both_files_fade_and_move_by_their_velocities),
         TEST_IN_FOLDER(particles_appear_and_vanish_without_a_jump),
         TEST_IN_FOLDER(a_particle_without_a_position_fades_like_one_that_vanished),
         TEST_IN_FOLDER(files_may_have_no_particles),
