@@ -23,7 +23,10 @@ render() {
 
 # Frames 1, 3 and 5 have a file, frame 4 is between two. A frame alone is the same.
 render all --frames 1-5 --meshes
-grep -q 'water.spacing_m: guessed 0.02' "$work/log" || { cat "$work/log"; fail "no line about the guess"; }
+grep -q 'spacing_m: guessed 0.02.*a particle is .*e-06 m^3 (water.volume is 1)' "$work/log" || {
+    cat "$work/log"
+    fail "no line about the guess"
+}
 for frame in 1:0 3:0.1 4:0.15 5:0.2; do
     python3 "$here/check_water.py" "$work/all" ${frame%:*} ${frame#*:} || fail "surfels of frame $frame"
 done
@@ -70,6 +73,23 @@ expect() {
 said=$("$virga" check "$work/ball.yaml" 2>/dev/null) || fail "check of a good scene"
 grep -q 'particles .*4 files, 0.3 s, up to 516 particles with velocity and with ids; spacing 0.02' <<<"$said" ||
     fail "check says: $said"
+# says LINES WHAT OPTION...: the check is good, with so many lines on standard error, one of which has WHAT.
+says() {
+    local lines=$1 what=$2 said
+    shift 2
+    said=$(timeout 60 "$virga" check "$work/ball.yaml" "$@" 2>&1 >"$work/out")
+    [ $? = 0 ] && [ "$(grep -c . <<<"$said")" = "$lines" ] &&
+        grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
+}
+says 2 'max_particles: expected at most 100 particles at once, got up to 516: 416 are left out' \
+    --set water.max_particles=100
+grep -q '416 of them are left out' "$work/out" || fail "check does not print what is left out"
+says 2 'got up to 1032 (those of two files, as there are no ids): 32 are left out' \
+    --set water.max_particles=1000 --set water.ids=none
+says 2 'water.volume: expected about 1: 0.8 makes a particle 6.5' --set water.volume=0.8
+says 1 'water.volume: expected about 0.3: 1 makes a particle 2.7e-05 m^3' --set water.spacing_m=0.03
+grep -q ' m, volume 2.7e-05 m^3 each' "$work/out" || fail "check does not print the volume"
+says 0 '' --set water.spacing_m=0.02
 expect 'no file has such a name' --set water.files=none_%04d.ply
 expect 'expected one number like %04d' --set water.files=ball_%s.ply
 expect 'ball_0009.ply is missing' --set water.first=9 --set water.step=2

@@ -84,7 +84,7 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, soft_m, 0, 10, "0.002", LIVE, "water fades over this depth where it meets geometry"),
     SWITCH(scene_water, contact, "true", LIVE, "the surface goes on to solids, with a meniscus; slower"),
     NUMBER(scene_water, light_gain, 0, 1000, "1", LIVE, "multiplies the light of lamps on the water"),
-    WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: as many as there are"),
+    WHOLE(scene_water, max_particles, 0, WATER_MAX_PARTICLES, "0", RESTARTS, "64 bytes each; 0: as many as there are"),
     WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the water"),
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
           "cells that the surface runs through; 280 bytes each; 0: by the water"),
@@ -130,10 +130,15 @@ static bool check_files(const scene_file *scene, char *error, size_t error_size)
     if (!from->files)
         return true;
     const bool good = water_open_source(scene, &source, error, error_size);
+    const uint32_t left_out = good ? water_left_out(scene, &source) : 0;
     if (good)
-        printf("  particles    %s: %u files, %g s, up to %u particles with%s velocity and with%s ids; spacing %.4g m\n",
+        printf("  particles    %s: %u files, %g s, up to %u particles with%s velocity and with%s ids; spacing %.4g m, "
+               "volume %.3g m^3 each\n",
                from->files, particle_sequence_length(source.sequence), particle_sequence_duration(source.sequence),
-               source.most, source.has_velocity ? "" : "out", source.has_ids ? "" : "out", source.spacing_m);
+               source.most, source.has_velocity ? "" : "out", source.has_ids ? "" : "out", source.spacing_m,
+               from->volume * pow(source.spacing_m, 3));
+    if (left_out)
+        printf("               %u of them are left out\n", left_out);
     particle_sequence_close(source.sequence);
     return good;
 }
@@ -168,7 +173,7 @@ static void size_pools(const scene_water *from, const water_source *source, virg
     for (int axis = 0; axis < 3; axis++)
         cells *= ceil(1.5 * source->extent_m[axis] / cell_m) + 4;
     const double more = source->sequence ? 2 : 1;
-    def->max_particles = size_of(from->max_particles, more * source->most, 4096, 8388608);
+    def->max_particles = size_of(from->max_particles, more * source->most, 4096, WATER_MAX_PARTICLES);
     def->max_cells = size_of(from->max_cells, cells, def->max_cells, 16777216);
     def->max_blocks = size_of(from->max_blocks, source->most, def->max_blocks, 1048576);
     def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 2097152);
@@ -176,7 +181,7 @@ static void size_pools(const scene_water *from, const water_source *source, virg
     def->max_foam = from->max_foam;
     def->max_parts = from->shading == SCENE_WATER_SHADING_SURFELS ? from->max_parts : 0;
     def->max_droplets = size_of(0, 4.0 * source->most, def->max_droplets, 1048576);
-    def->max_particles = def->max_particles < 64 ? 64 : def->max_particles;
+    def->max_particles = def->max_particles < WATER_MIN_PARTICLES ? WATER_MIN_PARTICLES : def->max_particles;
     def->max_cells = def->max_cells < 4096 ? 4096 : def->max_cells;
     def->max_blocks = def->max_blocks < 64 ? 64 : def->max_blocks;
     def->max_surfels = def->max_surfels < 256 ? 256 : def->max_surfels;

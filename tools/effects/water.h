@@ -8,6 +8,10 @@
 extern "C" {
 #endif
 
+/* Range of virga_water_def.max_particles. Devices with small storage buffers have room for fewer. */
+#define WATER_MIN_PARTICLES 64u
+#define WATER_MAX_PARTICLES 8388608u
+
 typedef enum scene_water_ids { SCENE_WATER_IDS_FILE, SCENE_WATER_IDS_ROWS, SCENE_WATER_IDS_NONE } scene_water_ids;
 typedef enum scene_water_up { SCENE_WATER_UP_Y, SCENE_WATER_UP_Z } scene_water_up;
 

@@ -42,48 +42,110 @@ static void note_frame(const particles *frame, double unit_m, water_source *sour
         source->extent_m[axis] = fmax(source->extent_m[axis], unit_m * ((double)high[axis] - (double)low[axis]));
 }
 
-static bool read_frame(water_source *source, uint32_t index, double unit_m, particle_spacing *guess, char *path,
-                       size_t path_size, char *error, size_t error_size)
+/* What the particles of the files say of their spacing. */
+typedef struct guessed {
+    particle_spacing spacing; /* 0: no guess; in units of the files */
+    char path[4096];          /* the file that says so */
+    bool settled;             /* it is not the first one, whose water may not have moved yet */
+} guessed;
+
+static bool read_frame(water_source *source, uint32_t index, double unit_m, guessed *guess, char *error,
+                       size_t error_size)
 {
     particles frame;
-    char *name = particle_sequence_path(source->sequence, index);
-    snprintf(path, path_size, "%s", name ? name : "");
-    free(name);
-    if (!particles_read(path, &frame, error, error_size))
+    char *path = particle_sequence_path(source->sequence, index);
+    if (!path)
+        return host_fail(error, error_size, "no memory for the name of a file");
+    if (!particles_read(path, &frame, error, error_size)) {
+        free(path);
         return false;
+    }
     note_frame(&frame, unit_m, source);
-    if (!(guess->spacing > 0) && !particle_spacing_guess(&frame, guess))
-        guess->spacing = 0;
+    if (!(guess->spacing.spacing > 0) && particle_spacing_guess(&frame, &guess->spacing)) {
+        snprintf(guess->path, sizeof guess->path, "%s", path);
+        guess->settled = index > 0;
+    }
     particles_free(&frame);
+    free(path);
     return true;
+}
+
+/* The number of particles per volume is known within 2 % in spacing, which is 6 % in volume. */
+static void compare_volume(const scene_file *scene, const water_source *source, const guessed *guess)
+{
+    const scene_water *from = scene_water_of(scene);
+    const double measured_m3 = pow(from->unit_m * guess->spacing.spacing, 3);
+    const double cube_m3 = pow(source->spacing_m, 3), given_m3 = from->volume * cube_m3;
+    char line[8192];
+    if (!guess->settled || fabs(given_m3 / measured_m3 - 1) <= 0.1)
+        return;
+    scene_file_refuse(scene, "water.volume", line, sizeof line,
+                      "expected about %.2g: %g makes a particle %.3g m^3, and each takes up %.3g m^3 in %s",
+                      measured_m3 / cube_m3, from->volume, given_m3, measured_m3, guess->path);
+    fprintf(stderr, "virga: %s\n", line);
+}
+
+static bool choose_spacing(const scene_file *scene, water_source *source, const guessed *guess, char *error,
+                           size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    const bool given = from->spacing_m > 0;
+    source->spacing_m = given ? from->spacing_m : from->unit_m * guess->spacing.spacing;
+    if (!given && !(source->spacing_m >= 0.0001 && source->spacing_m <= 10))
+        return scene_file_refuse(scene, "water.spacing_m", error, error_size,
+                                 "no guess from these particles (%g m); expected a spacing from 0.0001 to 10",
+                                 source->spacing_m);
+    if (!given)
+        fprintf(stderr,
+                "virga: water.spacing_m: guessed %.4g from %s, by its particles per volume; a particle is %.3g m^3 "
+                "(water.volume is %g)\n",
+                source->spacing_m, guess->path, from->volume * pow(source->spacing_m, 3), from->volume);
+    compare_volume(scene, source, guess);
+    return true;
+}
+
+/* Without ids the particles of two files are there at once. */
+static uint32_t most_at_once(const scene_file *scene, const water_source *source)
+{
+    const scene_water *from = scene_water_of(scene);
+    const bool paired = from->ids == SCENE_WATER_IDS_ROWS || (from->ids == SCENE_WATER_IDS_FILE && source->has_ids);
+    return paired || particle_sequence_length(source->sequence) < 2 ? source->most : 2 * source->most;
+}
+
+uint32_t water_left_out(const scene_file *scene, const water_source *source)
+{
+    const uint32_t given = scene_water_of(scene)->max_particles, most = most_at_once(scene, source);
+    const uint32_t room = !given ? WATER_MAX_PARTICLES : given < WATER_MIN_PARTICLES ? WATER_MIN_PARTICLES : given;
+    return most > room ? most - room : 0;
+}
+
+static void say_left_out(const scene_file *scene, const water_source *source)
+{
+    const uint32_t most = most_at_once(scene, source), out = water_left_out(scene, source);
+    const bool given = scene_water_of(scene)->max_particles;
+    char line[8192];
+    if (!out)
+        return;
+    scene_file_refuse(scene, given ? "water.max_particles" : "water.files", line, sizeof line,
+                      "expected at most %u particles at once%s, got up to %u%s: %u are left out", most - out,
+                      given ? "" : ", all that water can have", most,
+                      most > source->most ? " (those of two files, as there are no ids)" : "", out);
+    fprintf(stderr, "virga: %s\n", line);
 }
 
 /* The last file comes first: its water is more likely to have settled. */
 static bool read_frames(const scene_file *scene, water_source *source, char *error, size_t error_size)
 {
-    const scene_water *from = scene_water_of(scene);
     const uint32_t length = particle_sequence_length(source->sequence);
     const uint32_t order[] = {length - 1, length / 2, 0};
-    particle_spacing guess = {0};
-    char path[4096], guessed[4096] = "";
-    for (int i = 0; i < 3; i++) {
-        const bool known = guess.spacing > 0;
-        if (i && order[i] == order[i - 1])
-            continue;
-        if (!read_frame(source, order[i], from->unit_m, &guess, path, sizeof path, error, error_size))
+    guessed guess = {0};
+    for (int i = 0; i < 3; i++)
+        if (!(i && order[i] == order[i - 1]) &&
+            !read_frame(source, order[i], scene_water_of(scene)->unit_m, &guess, error, error_size))
             return false;
-        if (!known && guess.spacing > 0)
-            memcpy(guessed, path, sizeof guessed);
-    }
-    source->spacing_m = from->spacing_m > 0 ? from->spacing_m : from->unit_m * guess.spacing;
-    if (from->spacing_m > 0)
-        return true;
-    if (!(source->spacing_m >= 0.0001 && source->spacing_m <= 10))
-        return scene_file_refuse(scene, "water.spacing_m", error, error_size,
-                                 "no guess from these particles (%g m); expected a spacing from 0.0001 to 10",
-                                 source->spacing_m);
-    fprintf(stderr, "virga: water.spacing_m: guessed %.4g from %s, by its particles per volume\n", source->spacing_m,
-            guessed);
+    if (!choose_spacing(scene, source, &guess, error, error_size))
+        return false;
+    say_left_out(scene, source);
     return true;
 }
 

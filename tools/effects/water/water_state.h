@@ -70,8 +70,12 @@ extern const tool_view water_views[WATER_VIEWS];
 /* Opens the files of a scene. Reports errors by scene_file_refuse. */
 bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, char *error, size_t error_size);
 
-/* Opens them, and reads the last and the first one. Tells on standard error what was guessed. */
+/* Opens them, and reads the first, the middle and the last one. Tells on standard error what was guessed, what does not
+ * fit to the volume of particles, and how many are left out. */
 bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size);
+
+/* Particles at one time for which water has no room, going by the files that were read. */
+uint32_t water_left_out(const scene_file *scene, const water_source *source);
 
 /* Fills the particles of a step at a time of the files. */
 bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,

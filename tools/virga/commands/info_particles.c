@@ -4,6 +4,7 @@
 
 #include "particle_spacing.h"
 #include "particles.h"
+#include "water.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -67,8 +68,9 @@ static void print_spacing(const particles *frame)
 {
     particle_spacing guess;
     if (particle_spacing_guess(frame, &guess))
-        printf("  spacing      %.4g, by the number of particles per volume inside the water; %.4g to the nearest\n",
-               guess.spacing, guess.nearest);
+        printf("  spacing      %.4g, by the number of particles per volume inside the water, %.3g each; %.4g to the "
+               "nearest\n",
+               guess.spacing, pow(guess.spacing, 3), guess.nearest);
     else
         printf("  spacing      no guess from so few particles, or all at one place\n");
 }
@@ -83,6 +85,9 @@ int info_particles(const char *path)
     }
     const char *format = particles_format(path);
     printf("%s: %s, %u particles\n", path, format ? format : "particles", frame.count);
+    if (frame.count > WATER_MAX_PARTICLES)
+        printf("  too many     %u particles are left out: water has room for %u\n", frame.count - WATER_MAX_PARTICLES,
+               WATER_MAX_PARTICLES);
     if (frame.count) {
         print_bounds(&frame);
         print_attributes(&frame);
