@@ -26,6 +26,20 @@ static uint32_t saturated_difference(uint32_t a, uint32_t b)
     return a > b ? a - b : 0;
 }
 
+/* The surface has a hole where one of these is missing. */
+static void log_dropped(const virga_water *water)
+{
+    const virga_log *log = &water->base.context->log;
+    if (water->stats.blocks_dropped)
+        virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                        "%u cells of the water's surface found no room; water_def.max_blocks is %u",
+                        water->stats.blocks_dropped, water->def.max_blocks);
+    if (water->stats.surfels_dropped)
+        virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                        "%u surfels of the water found no room; water_def.max_surfels is %u",
+                        water->stats.surfels_dropped, water->def.max_surfels);
+}
+
 void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
     virga_water *water = object;
@@ -54,6 +68,7 @@ void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                             .foam_bubbles = read.state.foam_kinds[VIRGA_FOAM_BUBBLE],
                             .blocks = read.state.blocks,
                             .blocks_dropped = saturated_difference(read.state.blocks_wanted, read.state.blocks)};
+    log_dropped(water);
 }
 
 /* ---- a step */

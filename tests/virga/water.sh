@@ -35,6 +35,13 @@ for file in water water_mesh; do
     cmp "$work/all/$file.0004.ply" "$work/alone/$file.0004.ply" || fail "$file of frame 4 alone is another one"
 done
 
+# What does not fit is said, also of the only frame.
+for size in surfels=256 blocks=64; do
+    render few --frames 3 --set "water.max_$size"
+    grep -q "^virga: .* found no room; water_def.max_${size%=*} is ${size#*=}" "$work/log" ||
+        { cat "$work/log"; fail "no line about max_$size"; }
+done
+
 # Volumes, where the program was built with OpenVDB.
 if "$virga" help render | grep -q 'built without OpenVDB'; then
     "$virga" render "$work/ball.yaml" -o "$work/volumes" --volumes 2>"$work/log" && fail "volumes without OpenVDB"

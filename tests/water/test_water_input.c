@@ -114,7 +114,19 @@ static void more_particles_than_there_is_room_for_are_said(void **state)
     water_fixture_close(&f);
 }
 
-static void too_few_blocks_and_surfels_are_counted(void **state)
+typedef struct log_lines {
+    bool blocks, surfels;
+} log_lines;
+
+static void note_line(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    log_lines *lines = user;
+    const bool dropped = level == VIRGA_LOG_WARNING && id == VIRGA_LOG_CLAMPED;
+    lines->blocks = lines->blocks || (dropped && strstr(text, "water_def.max_blocks is 64"));
+    lines->surfels = lines->surfels || (dropped && strstr(text, "water_def.max_surfels is 256"));
+}
+
+static void too_few_blocks_and_surfels_are_counted_and_said(void **state)
 {
     (void)state;
     virga_water_def def = water_fixture_def();
@@ -122,11 +134,15 @@ static void too_few_blocks_and_surfels_are_counted(void **state)
     def.max_surfels = 256;
     water_fixture_open_with(&f, &def, false);
     f.settings.spacing_m = 0.02f;
+    log_lines lines = {0};
+    f.context->log = (virga_log){note_line, &lines};
     put_ball();
     water_fixture_step(&f);
     assert_int_equal(f.stats.surfels, 256);
     assert_int_equal(f.stats.blocks, 64);
     REQUIRE(f.stats.surfels_dropped > 0 && f.stats.blocks_dropped > 0);
+    REQUIRE(lines.blocks && lines.surfels);
+    f.context->log = (virga_log){effect_fixture_log, NULL};
     water_fixture_close(&f);
 }
 
@@ -167,7 +183,7 @@ int main(void)
         cmocka_unit_test(all_particles_at_one_position_are_thinned_out_alike_in_every_run),
         cmocka_unit_test(particles_far_from_the_others_do_not_cost_the_others_their_surface),
         cmocka_unit_test(more_particles_than_there_is_room_for_are_said),
-        cmocka_unit_test(too_few_blocks_and_surfels_are_counted),
+        cmocka_unit_test(too_few_blocks_and_surfels_are_counted_and_said),
         cmocka_unit_test(wrong_arguments_are_refused),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -235,6 +235,8 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
 static void close_state(shot *s, void *state)
 {
     water_state *p = state;
+    if (p->water)
+        virga_frame_completed(s->context, s->device.completed); /* so that the log has what the last frames lacked */
     water_close_solver(s, p);
     particle_sequence_close(p->source.sequence);
     host_buffer_destroy(&s->device, &p->particles);
