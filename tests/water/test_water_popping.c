@@ -150,7 +150,7 @@ static void nothing_pops_in_48_frames(void **state)
     printf("the largest change that is not explained: %.3f; RMS %.5f; %u changes above 0.1\n", (double)worst,
            sqrt(sum / (FRAMES - 1) / WIDTH / HEIGHT), many);
     close_shot();
-    REQUIRE(worst < 0.25f && many < 250);
+    REQUIRE(worst < 0.24f && many < 200); /* 0.254 and 431 where droplets below a pixel are not specks */
 }
 
 int main(void)
