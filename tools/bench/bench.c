@@ -4,6 +4,7 @@
 #include "options.h"
 #include "progress.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const uint32_t bench_sizes[BENCH_SIZES][2] = {{640, 360}, {1280, 720}, {1920, 1080}};
@@ -13,10 +14,20 @@ bool bench_fail(bench *b, const char *what)
     return options_complain("bench", "%s: %s", what, b->error);
 }
 
+/* What is clamped or switched off is not what the rows say that is measured. */
+static void say_warning(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    (void)user;
+    (void)id;
+    if (level != VIRGA_LOG_INFO)
+        fprintf(stderr, "virga bench: %s\n", text);
+}
+
 virga_context_def bench_context_def(const bench *b)
 {
     virga_context_def def = host_context_def(&b->device);
     def.variants = b->variants;
+    def.log = say_warning;
     if (b->model) {
         def.get_instance_proc_addr = counting_get;
         def.timings = false; /* on software Vulkan they come with barriers of their own, which no card has */
