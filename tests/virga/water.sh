@@ -64,6 +64,23 @@ if command -v oiiotool >/dev/null; then
     awk -v a="$sharp" -v b="$blurred" 'BEGIN { exit !(a > 0.002 && a < 0.1 && b > 0.9 * a && b < 1.1 * a) }' ||
         fail "water covers '$sharp' of the picture, and '$blurred' with sub-frames"
     cmp -s "$work/sharp/frame.0005.exr" "$work/blurred/frame.0005.exr" && fail "sub-frames do not blur the water"
+
+    # Layers of data: the ball is 0.2 m thick, has normals of all directions that are seen, and falls at 0.98 m/s, which
+    # at a distance of 1.9 m is 10.6 pixels a frame downwards and none to the side.
+    render data --frames 3 --size 384x384 --layers water_thickness,water_normal,water_velocity \
+        --set water.spray_density=0.4
+    # normal X, Y, Z, thickness, velocity X, Y: files have channels in the order of their names
+    oiiotool --stats "$work/data/frame.0003.exr" | awk '
+        /Stats Min/ { for (i = 1; i <= 6; i++) low[i] = $(i + 2) }
+        /Stats Max/ { for (i = 1; i <= 6; i++) high[i] = $(i + 2) }
+        END { exit !(high[4] > 0.19 && high[4] < 0.21 && high[3] > 0.98 && high[3] <= 1 && high[1] > 0.9 &&
+                     low[1] < -0.9 && high[2] > 0.9 && low[2] < -0.9 && high[6] > 10 && high[6] < 11.2 && low[6] >= 0 &&
+                     high[5] < 0.2 && low[5] > -0.2) }' ||
+        { oiiotool --stats "$work/data/frame.0003.exr"; fail "thickness, normals or velocity of the water"; }
+    # Spray as points: the droplets that stats.jsonl counts.
+    counted=$(grep -o '"droplets":[0-9]*' "$work/data/stats.jsonl" | cut -d: -f2)
+    [ "$counted" -gt 0 ] && grep -aq "^element vertex $counted\$" "$work/data/water_spray.0003.ply" ||
+        fail "water_spray has not the $counted droplets of stats.jsonl"
 fi
 
 # Z up, and turned back.
