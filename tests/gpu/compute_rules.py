@@ -19,6 +19,26 @@ SHARED_BYTES = 16384
 INVOCATIONS = 256
 BUFFERS = 0x40  # UniformMemory, among a barrier's semantics
 OF_SUBGROUPS = ("_shuffle.comp", "_narrow.comp")
+# Constants that pipelines set: of the workgroups that scan a long list, see scan_lanes in engine/gpu/pipeline_build.c.
+SPECIAL = {"5": 512}
+OPERATORS = {"IAdd": lambda a, b: a + b, "IMul": lambda a, b: a * b, "UDiv": lambda a, b: a // b,
+             "ULessThan": lambda a, b: int(a < b), "Select": lambda a, b, c: b if a else c}
+
+
+def numbers_of(code):
+    """Whole numbers by name: constants, and what is computed of those that pipelines set."""
+    special = {words[0]: words[2] for _, op, words in code if op == "OpDecorate" and words[1] == "SpecId"}
+    numbers, parts = {}, {}
+    for result, op, words in code:
+        if op in ("OpConstant", "OpSpecConstant") and words[1].isdigit():
+            numbers[result] = SPECIAL.get(special.get(result), int(words[1]))
+        elif op == "OpSpecConstantComposite":
+            parts[result] = words[1:]
+        elif op == "OpSpecConstantOp" and words[1] == "CompositeExtract" and words[2] in parts:
+            numbers[result] = numbers[parts[words[2]][int(words[3])]]
+        elif op == "OpSpecConstantOp" and words[1] in OPERATORS and all(word in numbers for word in words[2:]):
+            numbers[result] = OPERATORS[words[1]](*(numbers[word] for word in words[2:]))
+    return numbers
 
 
 def bytes_of(name, types, numbers):
@@ -36,7 +56,7 @@ def bytes_of(name, types, numbers):
 
 def shared_bytes(code):
     types = {result: (op, words) for result, op, words in code if result and op.startswith("OpType")}
-    numbers = {result: int(words[1]) for result, op, words in code if op == "OpConstant" and words[1].isdigit()}
+    numbers = numbers_of(code)
     return sum(bytes_of(types[words[0]][1][1], types, numbers) for _, op, words in code
                if op == "OpVariable" and words[1] == "Workgroup")
 
