@@ -151,4 +151,20 @@ static inline void glass_fixture_close(glass_fixture *f)
     assert_int_equal(glass_fixture_end(f), 0);
 }
 
+/* Water on the pane, by what was read back: drops, film, and what blades carry. Free slots have none. */
+static inline uint64_t glass_fixture_water(const glass_fixture *f)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < f->glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f->drops[i]) != VIRGA_GLASS_FREE)
+            sum += f->drops[i].water_nl + f->drops[i].merged_nl;
+        else
+            REQUIRE(f->drops[i].water_nl == 0 && f->drops[i].merged_nl == 0);
+    for (uint32_t i = 0; i < f->glass->columns * f->glass->rows; i++)
+        sum += f->film[i];
+    for (uint32_t i = 0; i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS; i++)
+        sum += f->state->bins_nl[i];
+    return sum;
+}
+
 #endif

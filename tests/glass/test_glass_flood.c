@@ -344,25 +344,13 @@ static void film_breaks_into_drops(void **unused)
 
 /* ---- what must hold */
 
-static uint64_t water_on_pane(void)
-{
-    uint64_t sum = 0;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        sum += f.drops[i].water_nl + f.drops[i].merged_nl;
-    for (uint32_t i = 0; i < f.glass->columns * f.glass->rows; i++)
-        sum += f.film[i];
-    for (uint32_t i = 0; i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS; i++)
-        sum += f.state->bins_nl[i];
-    return sum;
-}
-
 static void assert_budget(void)
 {
     virga_glass_stats s;
     virga_glass_stats_get(f.glass, &s);
     assert_int_equal(s.landed_nl + s.touched_nl, s.drops_nl + s.particles_nl + s.film_nl + s.run_off_nl + s.wiped_nl +
                                                      s.evaporated_nl + s.joined_nl);
-    assert_int_equal(s.drops_nl + s.particles_nl + s.film_nl, water_on_pane());
+    assert_int_equal(s.drops_nl + s.particles_nl + s.film_nl, glass_fixture_water(&f));
 }
 
 /* No drop that rests is under water, and no film. */

@@ -54,26 +54,11 @@ static void assert_cells(void)
     assert_int_equal(drops, occupied);
 }
 
-static uint64_t water_on_pane(void)
-{
-    uint64_t sum = 0;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        if (glass_fixture_kind(&f.drops[i]) != VIRGA_GLASS_FREE)
-            sum += f.drops[i].water_nl + f.drops[i].merged_nl;
-        else
-            REQUIRE(f.drops[i].water_nl == 0 && f.drops[i].merged_nl == 0);
-    for (uint32_t i = 0; i < f.glass->columns * f.glass->rows; i++)
-        sum += f.film[i];
-    for (uint32_t i = 0; i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS; i++)
-        sum += f.state->bins_nl[i];
-    return sum;
-}
-
 static void assert_budget(void)
 {
     const uint64_t gone = glass_fixture_count(&f, VIRGA_GLASS_RUN_OFF) + glass_fixture_count(&f, VIRGA_GLASS_WIPED) +
                           glass_fixture_count(&f, VIRGA_GLASS_EVAPORATED);
-    assert_int_equal(glass_fixture_count(&f, VIRGA_GLASS_LANDED), water_on_pane() + gone);
+    assert_int_equal(glass_fixture_count(&f, VIRGA_GLASS_LANDED), glass_fixture_water(&f) + gone);
     virga_glass_stats stats;
     virga_glass_stats_get(f.glass, &stats);
     assert_int_equal(stats.landed_nl, stats.drops_nl + stats.particles_nl + stats.film_nl + stats.run_off_nl +
@@ -340,12 +325,12 @@ static void blocks_are_marked_while_they_have_film(void **unused)
     glass_fixture_land(&f, 0.0151, 0.0101, 50);
     glass_fixture_land(&f, 0.1501, 0.1101, 20);
     glass_fixture_step(&f, 1, true);
-    REQUIRE(water_on_pane() == 170 && marked_blocks() == 2);
+    REQUIRE(glass_fixture_water(&f) == 170 && marked_blocks() == 2);
     assert_budget();
     f.settings.evaporation_mm_h = 100;
     glass_fixture_step(&f, 64, true);
     glass_fixture_step(&f, 64, true);
-    REQUIRE(water_on_pane() == 0 && marked_blocks() == 0);
+    REQUIRE(glass_fixture_water(&f) == 0 && marked_blocks() == 0);
     f.settings.evaporation_mm_h = 0;
     glass_fixture_land(&f, 0.0101, 0.0101, 30);
     glass_fixture_step(&f, 1, true);

@@ -183,7 +183,7 @@ bool glass_fill_budget(const void *state, uint32_t index, tool_budget *budget)
                                      {"run off", s.run_off_nl, all},
                                      {"wiped off", s.wiped_nl, all},
                                      {"evaporated", s.evaporated_nl, all},
-                                     {"to simulated water", s.joined_nl, all}},
+                                     {"into simulated water", s.joined_nl, all}},
                             .row_count = 9};
     return true;
 }
