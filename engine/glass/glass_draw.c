@@ -589,8 +589,9 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
 enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT };
 
 /* As choose_draws chooses. */
-uint32_t glass_wanted_draws(const void *given)
+uint32_t glass_wanted_draws(const void *glass, const void *given)
 {
+    (void)glass;
     const virga_glass_settings *settings = given;
     uint32_t rows = 0;
     if (!glass_is_all_textured(settings))

@@ -158,7 +158,7 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
 
 /* ---- glass_draw.c */
 extern const virga_effect_draw glass_draws[GLASS_DRAW_ROWS];
-uint32_t glass_wanted_draws(const void *settings);
+uint32_t glass_wanted_draws(const void *glass, const void *settings);
 uint32_t glass_draw_constant(const void *glass);
 virga_result glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                         const char *call);

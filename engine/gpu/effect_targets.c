@@ -118,7 +118,7 @@ error:
 
 static uint32_t wanted_by(const virga_effect *effect, const void *settings)
 {
-    return effect->type->wanted_draws ? effect->type->wanted_draws(settings) : UINT32_MAX;
+    return effect->type->wanted_draws ? effect->type->wanted_draws(effect, settings) : UINT32_MAX;
 }
 
 virga_result virga_effect_want_draws(virga_effect *effect, const void *settings)

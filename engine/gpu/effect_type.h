@@ -246,7 +246,7 @@ typedef struct virga_effect_type {
     uint32_t (*draw_constant)(const void *object);
     /* (optional) The rows of `draws` that an object with these settings may draw with, as bits. Pipelines of other rows
      * are built once its settings want them. Without it: all rows. */
-    uint32_t (*wanted_draws)(const void *settings);
+    uint32_t (*wanted_draws)(const void *object, const void *settings);
     /* (optional) The device has not executed calls of a completed frame. `did` tells what they recorded. What later
      * frames need must be recorded again. */
     void (*lost)(void *object, uint64_t frame, uint32_t did);

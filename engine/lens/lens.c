@@ -22,6 +22,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, half_resolution, 0, 1),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     DEF(U32, circles, 0, 1),
+    DEF(U32, in_place, 0, 1),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -44,6 +45,14 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, filter_weight[1], 0, 100, 5),
 };
 
+static virga_result check_def(const virga_log *log, void *given)
+{
+    const virga_lens_def *def = given;
+    if (def->in_place && (!def->half_resolution || def->circles))
+        return virga_wrong_argument(log, "lens_def.in_place: expected half_resolution 1 and circles 0 beside it");
+    return VIRGA_OK;
+}
+
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_lens_def *def = given;
@@ -57,7 +66,7 @@ static virga_result fit_device(const virga_context *context, void *given)
 /* ---- resources */
 
 enum {
-    COUNT_WIDTH = 1,
+    COUNT_PICTURE_WIDTH = 1,
     COUNT_HEIGHT,
     COUNT_COLUMNS,
     COUNT_ROWS,
@@ -91,7 +100,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const virga_lens_def *def = given;
     const uint32_t step = def->half_resolution ? 2 : 1;
     const uint32_t width = def->circles ? 0 : def->max_width, height = def->circles ? 0 : def->max_height;
-    counts[COUNT_WIDTH] = width;
+    counts[COUNT_PICTURE_WIDTH] = def->in_place ? 0 : width;
     counts[COUNT_HEIGHT] = height;
     counts[COUNT_COLUMNS] = (width + step - 1) / step;
     counts[COUNT_ROWS] = (height + step - 1) / step;
@@ -111,7 +120,7 @@ static const virga_effect_buffer buffers[] = {
     {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_lens_tile_gpu), .count = COUNT_TILES,
      .first = VIRGA_FIRST_FILL, .scratch = true},
     {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_LISTS * sizeof(virga_lens_list_gpu),
-     .entry = VIRGA_LENS_TILE_LISTS * sizeof(uint32_t), .count = COUNT_TILES},
+     .entry = VIRGA_LENS_TILE_LISTS * sizeof(uint32_t), .count = COUNT_TILES, .per_view = true},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };
 
@@ -133,7 +142,7 @@ static const virga_effect_image images[] = {
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-     COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
+     COUNT_PICTURE_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.circles", AT(circles), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_CIRCLES_WIDTH, COUNT_CIRCLES_HEIGHT, 1 + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     BLANK_DEPTH("lens.blank_depth", blank_depth),
@@ -172,7 +181,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     SAMPLED_IMAGE(COMPUTE, spreads),                 /* 25 */
     {SAMPLED, COMPUTE},                              /* 26 color of the layer on the scene */
     [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},          /* 27 */
-    BUFFER(lists),                                   /* 28 */
+    BUFFER_IN(COMPUTE | VERTEX, lists),              /* 28 */
     {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
     [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
@@ -200,12 +209,22 @@ static const virga_effect_pass passes[] = {
 static uint32_t pass_constant(const void *object)
 {
     const virga_lens *lens = object;
-    return lens->def.half_resolution && !lens->def.circles ? VIRGA_LENS_HALVED : 0;
+    const uint32_t halved = lens->def.half_resolution && !lens->def.circles ? VIRGA_LENS_HALVED : 0;
+    return halved | (lens->def.in_place ? VIRGA_LENS_IN_PLACE : 0);
 }
 
 uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
 {
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
+}
+
+/* Draws of a whole picture or a part of it, or those in place. */
+static uint32_t wanted_draws(const void *object, const void *settings)
+{
+    const virga_lens *lens = object;
+    (void)settings;
+    return lens->def.in_place ? 1u << LENS_DRAW_TILES | 1u << LENS_DRAW_LAYERS
+                              : 1u << LENS_DRAW_PICTURE | 1u << LENS_DRAW_PART;
 }
 
 static bool form_used(const void *object, const void *given, const virga_effect_pass *pass, uint32_t form)
@@ -221,6 +240,8 @@ static bool form_used(const void *object, const void *given, const virga_effect_
         return lens->def.circles && member == AT(circle);
     if (member == AT(paper))
         return settings->style == VIRGA_LENS_STYLE_PAPER;
+    if (member == AT(combine) && lens->def.in_place)
+        return false;
     if (member != AT(tile) && member != AT(combine))
         return true;
     const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;
@@ -245,6 +266,9 @@ static virga_result check_settings(const void *object, void *given, bool *change
 {
     const virga_lens *lens = object;
     virga_lens_settings *settings = given;
+    if (lens->def.in_place && settings->style == VIRGA_LENS_STYLE_PAPER)
+        return virga_wrong_argument(&lens->base.context->log,
+                                    "lens_settings.style: expected physical; lens_def.in_place is 1");
     if (!lens->def.half_resolution && !lens->def.circles)
         settings->max_radius_px =
             virga_clamp_setting_float(&lens->base.context->log, "lens_settings.max_radius_px, at full resolution",
@@ -269,7 +293,9 @@ static virga_result apply_settings(void *object, void *given)
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_lens *lens = object;
-    const char *how = lens->def.half_resolution ? ", blurred at half resolution" : "";
+    const char *how = lens->def.in_place          ? ", blurred at half resolution, in place"
+                      : lens->def.half_resolution ? ", blurred at half resolution"
+                                                  : "";
     snprintf(line, size, "lens: %s of up to %u x %u pixels%s", lens->def.circles ? "circles of confusion" : "pictures",
              lens->def.max_width, lens->def.max_height, lens->def.circles ? "" : how);
 }
@@ -292,7 +318,9 @@ VIRGA_EFFECT_DRAW_FUNCTIONS(lens)
 const virga_effect_type lens_type = {
     VIRGA_EFFECT_TABLES(lens, "a lens", "lens_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, init, check_settings, apply_settings, pass_constant, form_used),
+    VIRGA_CALLBACKS(check_def, fit_device, init, check_settings, apply_settings, pass_constant, form_used,
+                    wanted_draws),
+    .draw_constant = pass_constant,
     .draws = lens_draws,
     .draw_count = LENS_DRAWS,
     .readback_bytes = VIRGA_MAX_VIEWS * sizeof(virga_lens_state_gpu),

@@ -185,7 +185,8 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
                                                           .has_time = true,
                                                           .width = filled->width,
                                                           .height = filled->height,
-                                                          .layers = layer_count};
+                                                          .layers = layer_count,
+                                                          .all_sharp = filled->all_sharp};
     return result;
 }
 
@@ -204,7 +205,7 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_DEPTH] = virga_bound_or_blank(&view->depth, lens->blank_depth, context->nearest);
     bound[LENS_BIND_COLOR] = virga_bound_or_blank(&view->color, lens->blank_color, context->nearest);
     const virga_bound out = in_general(lens->def.circles ? lens->circles : lens->fields, context->linear);
-    for (uint32_t i = 0; lens->def.circles && i < LENS_BIND_CIRCLES; i++)
+    for (uint32_t i = 0; i < LENS_BIND_CIRCLES; i++)
         if (!bound[i].view && lens->bindings->kinds[i].source == VIRGA_SOURCE_IMAGE)
             bound[i] = out; /* no pass uses it, but software Vulkan looks at every image of a set */
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
@@ -370,7 +371,8 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
 {
     if (!view->all_sharp)
         record_fields(lens, cmd, view);
-    record_combine(lens, cmd, view);
+    if (!lens->def.in_place)
+        record_combine(lens, cmd, view);
 }
 
 static void record_circles(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
@@ -425,7 +427,8 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
              virga_groups_of(filled.height, VIRGA_LENS_COLUMN));
     else
         record_physical(lens, cmd, &filled);
-    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_FRAGMENTS); /* also for the host */
+    const uint32_t draws = lens->def.in_place ? VIRGA_FRAGMENTS | VIRGA_VERTICES | VIRGA_ARGUMENTS : VIRGA_FRAGMENTS;
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | draws); /* also for the host */
     virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0,
                                  virga_effect_view_index(&lens->base) * sizeof(virga_lens_state_gpu),
                                  sizeof(virga_lens_state_gpu));
@@ -435,49 +438,139 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
 
 /* ---- draw */
 
+/* Forms of the draws in place: kinds of tiles, with no layer, one or any number. Without layers nothing has to be drawn
+ * in tiles in focus. */
+#define FORM_OF(kind, layers) ((kind) * (VIRGA_LENS_LAYERS + 1) + (layers))
+#define BLURRED_FORMS(layers) FORM_OF(VIRGA_LENS_TILES_BLURRED, layers), FORM_OF(VIRGA_LENS_TILES_FAR, layers)
+#define TILE_FORMS(layers)    BLURRED_FORMS(layers), FORM_OF(VIRGA_LENS_TILES_SHARP, layers)
+static const uint32_t tile_forms[] = {BLURRED_FORMS(0), TILE_FORMS(1), TILE_FORMS(VIRGA_LENS_LAYERS)};
+static const uint32_t sharp_forms[] = {FORM_OF(VIRGA_LENS_ALL_SHARP, 1),
+                                       FORM_OF(VIRGA_LENS_ALL_SHARP, VIRGA_LENS_LAYERS)};
+
 const virga_effect_draw lens_draws[LENS_DRAWS] = {
     [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
                            .replace = true},
     [LENS_DRAW_PART] = {"lens.part", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_part_frag), .no_depth = true,
                         .replace = true},
+    [LENS_DRAW_TILES] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), tile_forms,
+                         VIRGA_ROWS(tile_forms), .no_depth = true},
+    [LENS_DRAW_LAYERS] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_overlay_frag), sharp_forms,
+                          VIRGA_ROWS(sharp_forms), .no_depth = true},
 };
 
-/* Over the viewport. */
-static virga_result draw(virga_lens *lens, const char *call, VkCommandBuffer cmd, const virga_target *target,
-                         virga_prepared prepared, uint32_t row, uint32_t part)
+/* What a draw call was given, and the pipelines of the target's class. */
+typedef struct draw_call {
+    const char *name;
+    VkCommandBuffer cmd;
+    const virga_target *target;
+    virga_prepared prepared;
+    const virga_effect_target *found;
+} draw_call;
+
+/* The first pipeline of a row. */
+static const virga_pipeline *const *pipelines_of(const draw_call *to, uint32_t row)
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < row; i++)
+        first += lens_draws[i].constants ? lens_draws[i].constant_count : 1;
+    return (const virga_pipeline *const *)&to->found->draws[first];
+}
+
+/* Selects the view. */
+static virga_result check_draw(virga_lens *lens, draw_call *to)
+{
+    const virga_log *log = &lens->base.context->log;
+    if (lens->def.circles)
+        return virga_wrong_argument(log, "%s: expected a lens with a picture; lens_def.circles is 1", to->name);
+    return virga_effect_check_draw(&lens->base, to->name, to->cmd, to->target, to->prepared, true, &to->found);
+}
+
+static virga_pass_scope begin_draw(virga_lens *lens, const draw_call *to, const char *name)
 {
     virga_context *context = lens->base.context;
-    const virga_effect_target *found;
-    if (lens->def.circles)
-        return virga_wrong_argument(&context->log, "%s: expected a lens with a picture; lens_def.circles is 1", call);
-    virga_result result = virga_effect_check_draw(&lens->base, call, cmd, target, prepared, true, &found);
-    if (result)
-        return result;
-    const virga_pipeline *pipeline = found->draws[row];
-    result = virga_pipelines_ready(&pipeline, 1);
-    if (result)
-        return result;
     const virga_effect_view *view = virga_effect_selected(&lens->base);
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, lens_draws[row].name);
-    virga_set_draw_area(context, cmd, view->viewport);
-    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, view->set, 1, &view->offset);
-    virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof part, &part);
-    context->vk.CmdDraw(cmd, 3, 1, 0, 0);
-    virga_pass_end(context, cmd, scope);
+    const virga_pass_scope scope = virga_draw_begin(context, to->cmd, name);
+    virga_set_draw_area(context, to->cmd, view->viewport);
+    virga_bind(context, to->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, view->set, 1, &view->offset);
+    return scope;
+}
+
+/* Over the viewport. */
+static void draw_viewport(virga_lens *lens, const draw_call *to, const virga_pipeline *pipeline, uint32_t part)
+{
+    virga_context *context = lens->base.context;
+    virga_bind_pipeline(context, to->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    context->vk.CmdPushConstants(to->cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof part, &part);
+    context->vk.CmdDraw(to->cmd, 3, 1, 0, 0);
+}
+
+/* A list of tiles. The device wrote how many there are. */
+static void draw_tiles(virga_lens *lens, const draw_call *to, const virga_pipeline *pipeline, uint32_t kind)
+{
+    virga_context *context = lens->base.context;
+    const VkDeviceSize head = kind * sizeof(virga_lens_list_gpu);
+    virga_bind_pipeline(context, to->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    context->vk.CmdPushConstants(to->cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof kind, &kind);
+    context->vk.CmdDrawIndirect(to->cmd, lens->lists_of_view[lens->base.slot]->buffer,
+                                head + offsetof(virga_lens_list_gpu, vertices), 1, 0);
+}
+
+static virga_result draw(virga_lens *lens, draw_call *to, uint32_t row, uint32_t part)
+{
+    virga_result result = check_draw(lens, to);
+    if (!result)
+        result = virga_pipelines_ready(pipelines_of(to, row), 1);
+    if (result)
+        return result;
+    const virga_pass_scope scope = begin_draw(lens, to, lens_draws[row].name);
+    draw_viewport(lens, to, *pipelines_of(to, row), part);
+    virga_pass_end(lens->base.context, to->cmd, scope);
+    return VIRGA_OK;
+}
+
+/* Blends over the target what is out of focus, and layers. */
+static virga_result draw_in_place(virga_lens *lens, draw_call *to)
+{
+    if (to->target && to->target->def.encoding == VIRGA_ENCODING_SRGB)
+        return virga_wrong_argument(&lens->base.context->log,
+                                    "%s: expected a target of linear light to blend over, as lens_def.in_place is 1",
+                                    to->name);
+    virga_result result = check_draw(lens, to);
+    if (result)
+        return result;
+    static const uint32_t first_forms[] = {0, 2, 5}; /* of tile_forms, by how many layers there are */
+    const lens_prepared *seen = &lens->prepared[lens->base.slot];
+    const uint32_t many = seen->layers > 1 ? 2 : seen->layers;
+    const uint32_t kinds = seen->all_sharp ? many > 0 : many ? VIRGA_LENS_TILE_KINDS : VIRGA_LENS_TILES_SHARP;
+    if (!kinds)
+        return VIRGA_OK;
+    const virga_pipeline *const *pipelines = seen->all_sharp ? pipelines_of(to, LENS_DRAW_LAYERS) + many - 1
+                                                             : pipelines_of(to, LENS_DRAW_TILES) + first_forms[many];
+    result = virga_pipelines_ready(pipelines, kinds);
+    if (result)
+        return result;
+    const virga_pass_scope scope = begin_draw(lens, to, lens_draws[LENS_DRAW_TILES].name);
+    if (seen->all_sharp)
+        draw_viewport(lens, to, *pipelines, 0);
+    for (uint32_t kind = 0; kind < kinds && !seen->all_sharp; kind++)
+        draw_tiles(lens, to, pipelines[kind], kind);
+    virga_pass_end(lens->base.context, to->cmd, scope);
     return VIRGA_OK;
 }
 
 virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call)
 {
-    return draw(lens, call, cmd, target, prepared, LENS_DRAW_PICTURE, 0);
+    draw_call to = {call, cmd, target, prepared, NULL};
+    return lens->def.in_place ? draw_in_place(lens, &to) : draw(lens, &to, LENS_DRAW_PICTURE, 0);
 }
 
 static virga_result draw_part(virga_lens *lens, const char *call, VkCommandBuffer cmd, const virga_target *target,
                               virga_prepared prepared, uint32_t part)
 {
     const virga_log *log = &lens->base.context->log;
+    if (lens->def.in_place)
+        return virga_wrong_argument(log, "%s: expected a lens that has parts; lens_def.in_place is 1", call);
     const virga_result result = prepared ? virga_effect_find_view(&lens->base, call, prepared) : VIRGA_OK;
     if (result)
         return result;
@@ -487,7 +580,8 @@ static virga_result draw_part(virga_lens *lens, const char *call, VkCommandBuffe
                                     part);
     if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
         return virga_wrong_argument(log, "%s: expected the physical style; the paper's has no parts", call);
-    return draw(lens, call, cmd, target, prepared, LENS_DRAW_PART, part);
+    draw_call to = {call, cmd, target, prepared, NULL};
+    return draw(lens, &to, LENS_DRAW_PART, part);
 }
 
 virga_result virga_lens_draw_part(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, uint32_t part)

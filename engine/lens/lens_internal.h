@@ -43,6 +43,7 @@ typedef struct lens_prepared {
     double time_s;
     bool has_time;
     uint32_t width, height, layers;
+    bool all_sharp; /* nothing is out of focus, as far as is known without the pictures */
 } lens_prepared;
 
 struct virga_lens {
@@ -52,8 +53,9 @@ struct virga_lens {
     float areas[VIRGA_LENS_SPREADS];
 
     VIRGA_PER_VIEW(virga_buffer, state);
-    virga_buffer *tiles, *reaches, *lists;
-    VIRGA_PER_VIEW(virga_image_2d, picture);
+    virga_buffer *tiles, *reaches;
+    VIRGA_PER_VIEW(virga_buffer, lists);     /* tiles to draw, if def.in_place */
+    VIRGA_PER_VIEW(virga_image_2d, picture); /* NULL if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, fields);
     VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
     virga_image_2d *aperture, *samples, *spreads, *blocks, *blank_depth, *blank_color;
@@ -79,7 +81,7 @@ void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, flo
 uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
 
 /* ---- lens_draw.c */
-enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAWS };
+enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAW_TILES, LENS_DRAW_LAYERS, LENS_DRAWS };
 extern const virga_effect_draw lens_draws[LENS_DRAWS];
 virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call);

@@ -20,54 +20,16 @@ const bool LISTED = HALVED && !ALL_SHARP;
 
 #define SCENE_LINEAR (OWN_FORM >= VIRGA_LENS_COMBINE_KINDS * (VIRGA_LENS_LAYERS + 1u))
 #include "compose.glsl"
+#include "stack.glsl"
 #include "lists.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D picture;
 
-struct composed {
-    vec4 color;   // so far
-    vec4 near;    // the scene's near field
-    float near_px;
-    bool near_done; // it is in the color
-    bool behind;    // see layer_cut
-};
-
-void put(uint layer, inout composed sum)
+void store_pixel(uvec2 at, composed sum)
 {
-    if (ALL_SHARP) {
-        sum.color = over(layer_at(layer, 0.0), sum.color);
-        return;
-    }
-    const float radius = layer_radius(layer);
-    if (!sum.near_done && radius < sum.near_px) {
-        sum.color = over(sum.near, sum.color);
-        sum.near_done = true;
-    }
-    const vec4 cut = view.on_scene != 0u ? sum.near : vec4(0.0);
-    sum.color = over(layer_cut(layer, radius, cut, sum.near_px, sum.behind), sum.color);
-}
-
-// The scene at a pixel, from its fields there.
-composed begin_pixel(uvec2 at, vec4 behind, vec4 before)
-{
-    look_at(min(at, uvec2(view.width, view.height) - 1u));
-    composed sum;
-    scene_of(behind, before, sum.near, sum.color, sum.near_px);
-    // What lies on the scene also lies on its near field, so the layers behind that field come after it, cut by it.
-    sum.near_done = view.on_scene != 0u;
-    sum.behind = true;
-    if (sum.near_done)
-        sum.color = over(sum.near, sum.color);
-    return sum;
-}
-
-void end_pixel(uvec2 at, composed sum)
-{
-    if (!sum.near_done)
-        sum.color = over(sum.near, sum.color);
     if (at.x < view.width && at.y < view.height)
-        imageStore(picture, ivec2(at), sum.color);
+        imageStore(picture, ivec2(at), end_pixel(sum));
 }
 
 void put_pixel(uvec2 at, vec4 behind, vec4 before)
@@ -75,7 +37,7 @@ void put_pixel(uvec2 at, vec4 behind, vec4 before)
     composed sum = begin_pixel(at, behind, before);
 #define PUT(layer) put(layer, sum)
     FOR_LAYERS(PUT)
-    end_pixel(at, sum);
+    store_pixel(at, sum);
 }
 
 // With up to one layer. There are four of these in the code, and compilers take as long as there is code.
@@ -84,7 +46,7 @@ void put_one_layer(uvec2 at, vec4 behind, vec4 before)
     composed sum = begin_pixel(at, behind, before);
     if (LAYERS == 1u)
         put(0u, sum);
-    end_pixel(at, sum);
+    store_pixel(at, sum);
 }
 
 // A field at the four pixels of a texel. Their centres are a quarter of a texel from its own.

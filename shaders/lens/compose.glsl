@@ -4,7 +4,11 @@
 // images; it changes over where the circle of confusion grows from half a pixel to two.
 // The includer has lens.glsl, pixels.glsl, layers.glsl, and says what is left out:
 // ALL_SHARP: nothing is out of focus; NO_NEAR: nothing of the scene in front of the focus; NO_FAR: nothing of it.
+// With BENEATH, what is in focus lies in the target already. It is left out here, as a pixel without color and
+// coverage. The result is linear in it, so it is what has to be blended over the target.
+#ifndef BENEATH
 #include "scene_color.glsl"
+#endif
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
 
@@ -46,7 +50,11 @@ void keep_sharp_part(vec4 sharp, float share, inout vec4 near, inout vec4 far)
 // The scene without layers, from its fields. `near_px` is the signed circle of confusion of what is in `near`.
 void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float near_px)
 {
+#ifdef BENEATH
+    const vec4 sharp = vec4(0.0);
+#else
     const vec4 sharp = vec4(scene_color(pixel), 1.0);
+#endif
     near = vec4(0.0);
     far = sharp;
     near_px = 0.0;

@@ -22,6 +22,7 @@ const uint OWN_FORM = FORM & 255u;
 #define HALVED (STEP == 2u)
 #else
 const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
+const bool IN_PLACE = (FORM & VIRGA_LENS_IN_PLACE) != 0u;
 const uint STEP = HALVED ? 2u : 1u; // as view.step
 #endif
 

@@ -27,6 +27,14 @@ bool is_sharp(vec2 reach) { return max(reach.x, reach.y) <= SHARP_REACH; }
 // An entry of a list: column and row of the tile. Each lane would divide an index.
 uint entry_of(uvec2 tile) { return tile.x | tile.y << 16; }
 
+#ifdef LISTS_DRAWN
+// The tile of an entry.
+uvec2 listed_tile(uint kind, uint entry)
+{
+    const uint tile = listed[kind * view.tile_columns * view.tile_rows + entry];
+    return uvec2(tile & 0xFFFFu, tile >> 16);
+}
+#else
 // The first texel of a workgroup of 8 x 8, in a pass over one list. Negative where the last row of workgroups is longer
 // than the list.
 ivec2 listed_first(uint kind)
@@ -38,3 +46,4 @@ ivec2 listed_first(uint kind)
     const uvec2 at = uvec2(tile & 0xFFFFu, tile >> 16) * TILE_GROUPS;
     return ivec2(at + uvec2(gl_WorkGroupID.x & (TILE_GROUPS - 1u), gl_WorkGroupID.x / TILE_GROUPS)) * 8;
 }
+#endif

@@ -29,6 +29,8 @@ void add_to_list(uint kind, uint tile)
     const uint columns = min(entry + 1u, VIRGA_LENS_LIST_ROW), rows = entry / VIRGA_LENS_LIST_ROW + 1u;
     listed[kind * view.tile_columns * view.tile_rows + entry] =
         entry_of(uvec2(tile % view.tile_columns, tile / view.tile_columns));
+    if (IN_PLACE)
+        atomicMax(lists[kind].vertices, VIRGA_LENS_TILE_VERTICES * (entry + 1u));
     atomicMax(lists[kind].groups_y, columns);
     atomicMax(lists[kind].groups_z, rows);
 }

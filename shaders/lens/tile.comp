@@ -117,7 +117,7 @@ void touch_around(ivec2 own, vec3 radii, uint levels, uint lane)
 // (half resolution) Tiles that nothing reaches get no fields, but each part of the picture is drawn everywhere.
 void empty_near_field(ivec2 texel)
 {
-    if (HALVED && all(lessThan(texel, ivec2(view.columns, view.rows))))
+    if (HALVED && !IN_PLACE && all(lessThan(texel, ivec2(view.columns, view.rows))))
         imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
 }
 
@@ -125,7 +125,7 @@ void empty_lists()
 {
     for (uint i = 0u; i < VIRGA_LENS_LISTS; i++) {
         const bool has_tiles = HALVED && i != VIRGA_LENS_LIST_OF_BLOCKS;
-        lists[i] = virga_lens_list_gpu(has_tiles ? TILE_GROUPS * TILE_GROUPS : 0u, 0u, 0u, 0u, 0u);
+        lists[i] = virga_lens_list_gpu(has_tiles ? TILE_GROUPS * TILE_GROUPS : 0u, 0u, 0u, 0u, 0u, 0u, 1u, 0u, 0u);
     }
 }
 

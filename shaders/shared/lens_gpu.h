@@ -45,6 +45,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 
 /* What a pass is specialised for: bits of its specialisation constant; the low ones are of the pass itself. */
 #define VIRGA_LENS_HALVED   256 /* half resolution */
+#define VIRGA_LENS_IN_PLACE 512 /* draws blend over the target, see shaders/lens/overlay.frag */
 #define VIRGA_LENS_SHAPED   1   /* gather, layer: an aperture that is no disc, or cat's eye */
 #define VIRGA_LENS_ON_SCENE 2   /* sample, gather: a layer lies on the scene */
 #define VIRGA_LENS_DEPTHS   2   /* layer: it has a depth image */
@@ -64,6 +65,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_LIST_OF_BLOCKS 4
 #define VIRGA_LENS_LISTS          5
 #define VIRGA_LENS_LIST_ROW       32768 /* tiles in a row of workgroups; a device has 65535 in one */
+#define VIRGA_LENS_TILE_VERTICES  6     /* (in place) of a tile that is drawn: two triangles */
 
 /* A bit beside those of levels, in what tiles tell each other: samples of this tile are read. */
 #define VIRGA_LENS_SAMPLED 65536u
@@ -142,11 +144,17 @@ struct virga_lens_list_gpu {
     uint groups_z; /* rows */
     uint count;    /* tiles */
     uint levels;   /* (of the first list) levels of blocks that any tile has */
+    /* A draw of the tiles: VkDrawIndirectCommand. */
+    uint vertices;
+    uint instances;
+    uint first_vertex;
+    uint first_instance;
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_lens_tile_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 20);
+VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 36);
+VIRGA_ASSERT_OFFSET(virga_lens_list_gpu, vertices, 20);
 VIRGA_ASSERT_SIZE(virga_lens_gpu, 164 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint

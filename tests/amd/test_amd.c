@@ -152,12 +152,13 @@ static virga_scene *open_scene(virga_context *context)
     return scene;
 }
 
-static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, uint32_t circles)
+static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, uint32_t circles, uint32_t in_place)
 {
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens;
     def.half_resolution = half_resolution;
     def.circles = circles;
+    def.in_place = in_place;
     assert_int_equal(virga_lens_create(context, &def, &lens), VIRGA_OK);
     virga_lens_settings settings = virga_default_lens_settings();
     settings.style = VIRGA_LENS_STYLE_PAPER; /* the filters are the same for all */
@@ -195,11 +196,14 @@ static virga_rain *open_plain_rain(virga_context *context)
     return rain;
 }
 
+#define LENSES 3 /* that draw */
+
 static void compile_all(void)
 {
     virga_context *context = open_context();
     virga_scene *scene = open_scene(context);
-    virga_lens *lens[2] = {open_lens(context, 0, 0), open_lens(context, 1, 0)}, *circles = open_lens(context, 0, 1);
+    virga_lens *lens[LENSES] = {open_lens(context, 0, 0, 0), open_lens(context, 1, 0, 0), open_lens(context, 1, 0, 1)};
+    virga_lens *circles = open_lens(context, 0, 1, 0);
     virga_fluid *fluid = open_fluid(context);
     virga_environment *environment = open_environment(context);
     virga_rain *plain = open_plain_rain(context);
@@ -209,8 +213,8 @@ static void compile_all(void)
         assert_int_equal(virga_scene_attach(scene, target), VIRGA_OK);
         assert_int_equal(virga_ground_attach(virga_scene_ground(scene), target), VIRGA_OK);
         assert_int_equal(virga_rain_attach(plain, target), VIRGA_OK);
-        assert_int_equal(virga_lens_attach(lens[0], target), VIRGA_OK);
-        assert_int_equal(virga_lens_attach(lens[1], target), VIRGA_OK);
+        for (int k = 0; k < LENSES; k++)
+            assert_int_equal(virga_lens_attach(lens[k], target), VIRGA_OK);
         virga_target_destroy(&target);
         if (pass)
             driver.destroy_render_pass(driver.device, pass, NULL);
@@ -219,8 +223,8 @@ static void compile_all(void)
     virga_environment_destroy(&environment);
     virga_fluid_destroy(&fluid);
     virga_lens_destroy(&circles);
-    virga_lens_destroy(&lens[0]);
-    virga_lens_destroy(&lens[1]);
+    for (int k = 0; k < LENSES; k++)
+        virga_lens_destroy(&lens[k]);
     virga_scene_destroy(&scene);
     virga_context_destroy(&context);
 }

@@ -257,6 +257,7 @@ void calls_fill_lens_def(calls *c, virga_lens_def *out)
     SMALL(max_height, 16, 32);
     SMALL(half_resolution, 0, 1);
     out->circles = calls_once_in(c, 4);
+    out->in_place = out->half_resolution && !out->circles && calls_once_in(c, 2);
     if (!c->device->honest)
         CALLS_WILD_ALL(c, out);
 }

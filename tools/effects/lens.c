@@ -89,21 +89,26 @@ typedef struct lens_case {
     uint32_t half_resolution;
     double radius_share; /* largest circle of confusion, as a share of the picture's height; 0: everything is sharp */
     uint32_t blurred;    /* index into `shares` */
+    bool in_place;       /* without the layer, and drawn */
 } lens_case;
 
 /* How much of the picture is out of focus, from above. The rest is as far away as the focus. */
-static const double shares[] = {1, 1.0 / 3, 0.1};
+static const double shares[] = {1, 1.0 / 3, 0.1, 0};
 #define SHARES (sizeof shares / sizeof *shares)
 
 static const lens_case cases[] = {
-    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0},
-    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0},
-    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2},
-    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1},
-    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0},
-    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0},
-    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0},
-    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0},
+    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0, false},
+    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0, false},
+    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, false},
+    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, false},
+    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, false},
+    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0, false},
+    {"in place, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true},
+    {"in place, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true},
+    {"in place, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true},
+    {"in place, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true},
+    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0, false},
+    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0, false},
 };
 
 static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
@@ -112,6 +117,11 @@ static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
 typedef struct pictures {
     host_image color, depths[SHARES], layer; /* depths: by the share that is out of focus */
     uint32_t width, height;
+    /* A game's color, of half floats: it is read, and then drawn into. */
+    host_image game;
+    VkRenderPass pass;
+    VkFramebuffer framebuffer;
+    virga_target *target;
 } pictures;
 
 /* ---- the pictures */
@@ -153,6 +163,86 @@ static bool upload(bench *b, const float *pixels, uint32_t channels, const pictu
                                   channels * 4, image, b->error, sizeof b->error);
 }
 
+/* ---- what a lens in place draws into */
+
+#define GAME_FORMAT VK_FORMAT_R16G16B16A16_SFLOAT
+
+static bool create_game_pass(bench *b, pictures *p)
+{
+    const VkAttachmentDescription attachment = {.format = GAME_FORMAT,
+                                                .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                                .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                .initialLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                                .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkSubpassDescription subpass = {.colorAttachmentCount = 1, .pColorAttachments = &color};
+    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                         .attachmentCount = 1,
+                                         .pAttachments = &attachment,
+                                         .subpassCount = 1,
+                                         .pSubpasses = &subpass};
+    return vkCreateRenderPass(b->device.device, &info, NULL, &p->pass) == VK_SUCCESS;
+}
+
+/* Black, which costs as much as the street. */
+static bool create_game_image(bench *b, pictures *p)
+{
+    const size_t bytes = (size_t)p->width * p->height * 8;
+    const host_image_def def = {.format = GAME_FORMAT,
+                                .extent = {p->width, p->height, 1},
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                .name = "bench game"};
+    void *black = calloc(1, bytes);
+    const bool good =
+        black && host_image_create_with(&b->device, &def, black, bytes, 8, &p->game, b->error, sizeof b->error);
+    free(black);
+    return good;
+}
+
+static bool open_game(bench *b, pictures *p)
+{
+    virga_target_def def = virga_default_target_def();
+    if (!create_game_pass(b, p) || !create_game_image(b, p))
+        return false;
+    const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                          .renderPass = p->pass,
+                                          .attachmentCount = 1,
+                                          .pAttachments = &p->game.view,
+                                          .width = p->width,
+                                          .height = p->height,
+                                          .layers = 1};
+    def.render_pass = p->pass;
+    def.color_formats[0] = GAME_FORMAT;
+    def.depth_attached = false;
+    def.reversed_depth = true;
+    return vkCreateFramebuffer(b->device.device, &info, NULL, &p->framebuffer) == VK_SUCCESS &&
+           virga_target_create(b->context, &def, &p->target) == VIRGA_OK;
+}
+
+static void close_game(bench *b, pictures *p)
+{
+    virga_target_destroy(&p->target);
+    vkDestroyFramebuffer(b->device.device, p->framebuffer, NULL);
+    vkDestroyRenderPass(b->device.device, p->pass, NULL);
+    host_image_destroy(&b->device, &p->game);
+}
+
+/* The host's barriers around the pass are part of what it costs. */
+static bool draw_in_place(virga_lens *lens, const pictures *p, VkCommandBuffer cmd)
+{
+    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                         .renderPass = p->pass,
+                                         .framebuffer = p->framebuffer,
+                                         .renderArea = {{0, 0}, {p->width, p->height}}};
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    const bool good = virga_lens_draw(lens, cmd, p->target) == VIRGA_OK;
+    vkCmdEndRenderPass(cmd);
+    return good;
+}
+
+/* ---- all pictures */
+
 static bool open_pictures(bench *b, pictures *p)
 {
     const size_t pixels = (size_t)p->width * p->height;
@@ -170,6 +260,7 @@ static bool open_pictures(bench *b, pictures *p)
     free(color);
     free(depth);
     free(layer);
+    good = good && open_game(b, p);
     return good || bench_fail(b, "pictures");
 }
 
@@ -179,6 +270,7 @@ static void close_pictures(bench *b, pictures *p)
     for (size_t i = 0; i < SHARES; i++)
         host_image_destroy(&b->device, &p->depths[i]);
     host_image_destroy(&b->device, &p->layer);
+    close_game(b, p);
 }
 
 static virga_image sampled(const host_image *image)
@@ -190,7 +282,7 @@ static virga_image sampled(const host_image *image)
 }
 
 /* The depth buffer is reversed and has no far plane, so that it stores 1 / view depth. */
-static virga_view view_of(const pictures *p, uint32_t blurred)
+static virga_view view_of(const pictures *p, const lens_case *row)
 {
     virga_view view = virga_default_view();
     memset(view.clip_from_view, 0, sizeof view.clip_from_view);
@@ -202,8 +294,8 @@ static virga_view view_of(const pictures *p, uint32_t blurred)
     view.reversed_depth = true;
     view.viewport[2] = (float)p->width;
     view.viewport[3] = (float)p->height;
-    view.color = sampled(&p->color);
-    view.depth = sampled(&p->depths[blurred]);
+    view.color = sampled(row->in_place ? &p->game : &p->color);
+    view.depth = sampled(&p->depths[row->blurred]);
     return view;
 }
 
@@ -221,16 +313,19 @@ static double worked_ms(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
-/* Times of a submission, with or without a prepare. */
-static bool time_frame(bench *b, virga_lens *lens, const pictures *p, uint32_t blurred, frame_times *times, size_t run)
+/* Times of a submission, with or without a lens. */
+static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens_case *row, frame_times *times,
+                       size_t run)
 {
     VkCommandBuffer cmd;
-    const virga_view view = view_of(p, blurred);
+    const virga_view view = view_of(p, row);
     const virga_lens_layer layer = {.color = sampled(&p->layer), .depth_m = FOCUS_M};
     if (!bench_begin(b, &cmd))
         return false;
-    if (lens && virga_lens_prepare(lens, cmd, &view, &layer, 1, 0) != VIRGA_OK)
+    if (lens && virga_lens_prepare(lens, cmd, &view, &layer, row->in_place ? 0 : 1, 0) != VIRGA_OK)
         return options_complain("bench", "a prepare failed");
+    if (lens && row->in_place && !draw_in_place(lens, p, cmd))
+        return options_complain("bench", "a draw failed");
     const double start = worked_ms();
     const bool good = bench_submit(b, &times->waited[run]);
     times->worked[run] = worked_ms() - start;
@@ -302,7 +397,7 @@ static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */
 static void print_passes(double times[PASSES][RUNS], size_t runs)
 {
-    printf("  %-16s ", "");
+    printf("  %-18s ", "");
     for (size_t i = 0; i < PASSES; i++) {
         double ms = times[i][0];
         for (size_t run = 1; run < runs; run++)
@@ -318,7 +413,7 @@ static void print_costs(const lens_case *row, const pictures *p, double worked, 
     const double texels = row->half_resolution ? 0.25 : 1;
     if (row->radius_share <= 0 && copy->worked <= 0)
         copy->worked = worked;
-    printf("  %-16s %10.1f x a copy of the same, processors; by a model %.0f bytes a pixel, %.1f x a copy", "",
+    printf("  %-18s %10.1f x a copy of the same, processors; by a model %.0f bytes a pixel, %.1f x a copy", "",
            worked / copy->worked, model_bytes(row, p), model_bytes(row, p) / COPY_BYTES);
     if (row->radius_share > 0)
         printf(", and %.0f reads of discs", texels * reads_of_disc(row->radius_share * p->height * sqrt(texels)));
@@ -334,14 +429,15 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     def.max_width = p->width;
     def.max_height = p->height;
     def.half_resolution = row->half_resolution;
+    def.in_place = row->in_place;
     const virga_lens_settings settings = settings_of(row, p);
     bool good = virga_lens_create(b->context, &def, &lens) == VIRGA_OK && virga_lens_set(lens, &settings) >= VIRGA_OK &&
-                time_frame(b, lens, p, row->blurred, &times, 0);
+                virga_lens_attach(lens, p->target) == VIRGA_OK && time_frame(b, lens, p, row, &times, 0);
     bench_forget_model(b);
     const double start = progress_now();
     size_t runs = 0;
     while (good && runs < RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
-        good = time_frame(b, NULL, p, row->blurred, &empty, runs) && time_frame(b, lens, p, row->blurred, &times, runs);
+        good = time_frame(b, NULL, p, row, &empty, runs) && time_frame(b, lens, p, row, &times, runs);
         for (size_t i = 0; i < PASSES; i++) {
             char name[32];
             snprintf(name, sizeof name, "lens.%s", pass_names[i]);
@@ -354,9 +450,9 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
         return options_complain("bench", "no lens could be measured");
     const double ms = fmax(bench_median(times.waited, runs) - bench_median(empty.waited, runs), 1e-3);
     const double worked = fmax(bench_median(times.worked, runs) - bench_median(empty.worked, runs), 1e-3);
-    printf("  %-16s %10.3f ms %9.1f frames/s %8.1f x a fill, processors %10.3f ms %8.1f x a fill, median of %zu\n",
+    printf("  %-18s %10.3f ms %9.1f frames/s %8.1f x a fill, processors %10.3f ms %8.1f x a fill, median of %zu\n",
            row->what, ms, 1e3 / ms, ms / fill->waited, worked, worked / fill->worked, runs);
-    if (row->style == VIRGA_LENS_STYLE_PHYSICAL)
+    if (row->style == VIRGA_LENS_STYLE_PHYSICAL && !row->in_place)
         print_costs(row, p, worked, copy);
     print_passes(passes, runs);
     fflush(stdout);
@@ -391,7 +487,7 @@ static bool run(bench *b, const options *parsed)
     bool good = true;
     for (size_t i = 0; good && i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++) {
         pictures p = {.width = sizes[i][0], .height = sizes[i][1]};
-        fill_cost fill;
+        fill_cost fill = {0};
         copy_cost copy = {0};
         good = open_pictures(b, &p) && measure_fill(b, &p, &fill);
         if (good)

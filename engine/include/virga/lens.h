@@ -58,6 +58,12 @@ typedef struct virga_lens_def {
      * pixel and view, and none for a picture. Cost: one read and one write per pixel of the scene and of each layer.
      * Default 0. */
     uint32_t circles;
+
+    /* 0 or 1; needs half_resolution, and no circles. 1: for a host whose target already holds the scene. Draws blend
+     * over it what is out of focus, and layers, see virga_lens_draw, in place of writing all of a picture. So the cost
+     * follows what is out of focus. There is no picture (virga_lens_picture), no part (virga_lens_draw_part) and no
+     * style of the paper. Memory: 8 bytes per pixel and view less. Default 0. */
+    uint32_t in_place;
 } virga_lens_def;
 
 VIRGA_API virga_lens_def virga_default_lens_def(void);
@@ -190,7 +196,18 @@ VIRGA_API virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer
 VIRGA_API virga_result virga_lens_attach(virga_lens *lens, const virga_target *target);
 
 /* Writes the picture into the target, over its viewport. Inside rendering. VIRGA_NOT_READY, and nothing is recorded, if
- * the target is not attached or nothing was prepared in this frame. */
+ * the target is not attached or nothing was prepared in this frame.
+ *
+ * With def.in_place it blends over the target, whose viewport must hold the colors that view.color held at the prepare.
+ * It may be the same image: the host makes it readable, prepares, makes it an attachment again, and loads it. The draw
+ * does not read view.color; it reads view.depth, and color and depth of layers.
+ *  - Squares of 32 x 32 pixels that nothing out of focus reaches keep their bits, and are neither read nor written.
+ *    Layers are put over all of the viewport.
+ *  - The result is that of the other way but for the rounding of the target's format. Alpha is blended as color is, so
+ *    1 stays 1. With several samples a pixel, what is in focus keeps its samples.
+ *  - A pixel of the target that is NaN or infinite stays so or becomes NaN. It does not spread.
+ *  - VIRGA_ERROR_INVALID for a target with VIRGA_ENCODING_SRGB, as light does not add up there; _SRGB formats work.
+ *  - Draw once: a second draw blurs the edges of what is out of focus again. */
 VIRGA_API virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target);
 
 /* (physical) Writes one part of the picture into the target instead, over its viewport: 0 is the scene without layers,

@@ -1,0 +1,446 @@
+/* test_lens_in_place.c - what is out of focus is blended over the picture that the target already holds: the same
+ * picture as in an image of its own, and what is in focus is not touched. */
+#include "../host/dynamic_device.h"
+#include "lens_fixture.h"
+
+#define WIDTH  224
+#define HEIGHT 96
+#define TILE   (2 * VIRGA_LENS_TILE) /* px */
+
+/* A host whose color image is what a lens reads, and then what it is drawn into. */
+typedef struct host {
+    lens_fixture f;
+    virga_target_kind kind;
+    host_image color, depths[2], layers[2 * VIRGA_LENS_MAX_LAYERS];
+    VkRenderPass pass;
+    VkFramebuffer framebuffer;
+    virga_target *target;
+} host;
+
+static uint16_t half_of(float value)
+{
+    int exponent;
+    const double fraction = frexp(fabs((double)value), &exponent); /* [0.5; 1) */
+    const uint16_t sign = value < 0 ? 0x8000 : 0;
+    if (value == 0)
+        return 0;
+    if (!isfinite(value))
+        return sign | (isnan(value) ? 0x7E00 : 0x7C00);
+    assert_true(exponent > -14 && exponent <= 16);
+    return (uint16_t)(sign | (exponent + 14) << 10 | ((int)ldexp(fraction, 11) & 1023));
+}
+
+static void create_pass(host *h)
+{
+    const VkAttachmentDescription attachment = {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                                .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                                .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                                .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkSubpassDescription subpass = {.colorAttachmentCount = 1, .pColorAttachments = &color};
+    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                         .attachmentCount = 1,
+                                         .pAttachments = &attachment,
+                                         .subpassCount = 1,
+                                         .pSubpasses = &subpass};
+    REQUIRE(vkCreateRenderPass(h->f.gpu.device.device, &info, NULL, &h->pass) == VK_SUCCESS);
+}
+
+static virga_result create_target(host *h, virga_encoding encoding, virga_target **target)
+{
+    virga_target_def def = virga_default_target_def();
+    def.kind = h->kind;
+    def.render_pass = h->kind == VIRGA_TARGET_DYNAMIC ? VK_NULL_HANDLE : h->pass;
+    def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
+    def.depth_attached = false;
+    def.reversed_depth = true;
+    def.encoding = encoding;
+    return virga_target_create(h->f.context, &def, target);
+}
+
+/* False: this kind of target is not supported. */
+static bool open_host(host *h, virga_target_kind kind, uint32_t width, uint32_t height, uint32_t max_views)
+{
+    virga_lens_def def = virga_default_lens_def();
+    memset(h, 0, sizeof *h);
+    def.half_resolution = def.in_place = 1;
+    def.max_views = max_views;
+    lens_fixture_open_with(&h->f, def, width, height, (VkDeviceSize)width * height * 8);
+    h->kind = kind;
+    if (kind == VIRGA_TARGET_DYNAMIC && !dynamic_rendering_there) {
+        lens_fixture_close(&h->f);
+        return false;
+    }
+    create_pass(h);
+    REQUIRE(create_target(h, VIRGA_ENCODING_LINEAR, &h->target) == VIRGA_OK);
+    REQUIRE(virga_lens_attach(h->f.lens, h->target) == VIRGA_OK);
+    return true;
+}
+
+static void drop_images(host *h)
+{
+    const VkDevice device = h->f.gpu.device.device;
+    vkDestroyFramebuffer(device, h->framebuffer, NULL);
+    host_image_destroy(&h->f.gpu.device, &h->color);
+    for (uint32_t i = 0; i < 2; i++)
+        host_image_destroy(&h->f.gpu.device, &h->depths[i]);
+    for (uint32_t i = 0; i < 2 * VIRGA_LENS_MAX_LAYERS; i++)
+        host_image_destroy(&h->f.gpu.device, &h->layers[i]);
+}
+
+static void close_host(host *h)
+{
+    drop_images(h);
+    virga_target_destroy(&h->target);
+    vkDestroyRenderPass(h->f.gpu.device.device, h->pass, NULL);
+    lens_fixture_close(&h->f);
+}
+
+static void upload_color(host *h)
+{
+    lens_fixture *f = &h->f;
+    const size_t count = (size_t)f->scene.width * f->scene.height * 4;
+    uint16_t *halves = malloc(count * sizeof *halves);
+    assert_non_null(halves);
+    for (size_t i = 0; i < count; i++)
+        halves[i] = half_of(f->scene.color[i]);
+    const host_image_def def = {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                .extent = {f->scene.width, f->scene.height, 1},
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                .name = "color"};
+    REQUIRE(host_image_create_with(&f->gpu.device, &def, halves, count * sizeof *halves, 8, &h->color, f->gpu.error,
+                                   sizeof f->gpu.error));
+    free(halves);
+    const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                          .renderPass = h->pass,
+                                          .attachmentCount = 1,
+                                          .pAttachments = &h->color.view,
+                                          .width = f->scene.width,
+                                          .height = f->scene.height,
+                                          .layers = 1};
+    REQUIRE(vkCreateFramebuffer(f->gpu.device.device, &info, NULL, &h->framebuffer) == VK_SUCCESS);
+    f->view.color = (virga_image){.image = h->color.image,
+                                  .view = h->color.view,
+                                  .format = h->color.format,
+                                  .before.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+static void upload_layers(host *h, virga_lens_layer layers[VIRGA_LENS_MAX_LAYERS])
+{
+    lens_fixture *f = &h->f;
+    for (uint32_t i = 0; i < f->layer_count; i++) {
+        layers[i].color = lens_upload(f, &f->layers[i], false, &h->layers[2 * i]);
+        layers[i].depth_m = f->layer_depths_m[i];
+        if (!(layers[i].depth_m > 0))
+            layers[i].depth = lens_upload(f, &f->layers[i], true, &h->layers[2 * i + 1]);
+    }
+}
+
+/* The pictures of a frame. */
+static void upload(host *h, virga_lens_layer layers[VIRGA_LENS_MAX_LAYERS])
+{
+    drop_images(h);
+    upload_color(h);
+    h->f.view.depth = h->f.flat ? (virga_image){0} : lens_upload(&h->f, &h->f.scene, true, &h->depths[0]);
+    upload_layers(h, layers);
+}
+
+static void begin(host *h, VkCommandBuffer cmd)
+{
+    const VkRect2D area = {{0, 0}, {h->f.scene.width, h->f.scene.height}};
+    const VkRenderPassBeginInfo pass = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                        .renderPass = h->pass,
+                                        .framebuffer = h->framebuffer,
+                                        .renderArea = area};
+    const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                             .imageView = h->color.view,
+                                             .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                             .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingInfo rendering = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                       .renderArea = area,
+                                       .layerCount = 1,
+                                       .colorAttachmentCount = 1,
+                                       .pColorAttachments = &color};
+    host_image_barrier(cmd, &h->color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+    if (h->kind == VIRGA_TARGET_DYNAMIC)
+        begin_rendering(cmd, &rendering);
+    else
+        vkCmdBeginRenderPass(cmd, &pass, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+/* Ends the rendering and the frame, and reads the image into the result. */
+static void end(host *h, VkCommandBuffer cmd)
+{
+    lens_fixture *f = &h->f;
+    if (h->kind == VIRGA_TARGET_DYNAMIC)
+        end_rendering(cmd);
+    else
+        vkCmdEndRenderPass(cmd);
+    host_image_barrier(cmd, &h->color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                    .imageExtent = {f->scene.width, f->scene.height, 1}};
+    vkCmdCopyImageToBuffer(cmd, h->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, f->download.buffer, 1, &copy);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                        VK_ACCESS_HOST_READ_BIT);
+    effect_fixture_complete(&f->gpu, f->context);
+    host_buffer_invalidate(&f->gpu.device, &f->download);
+    const uint16_t *halves = f->download.mapped;
+    for (size_t i = 0; i < (size_t)f->scene.width * f->scene.height * 4; i++)
+        f->result[i] = (float)lens_half_float(halves[i]);
+}
+
+static void run(host *h)
+{
+    virga_lens_layer layers[VIRGA_LENS_MAX_LAYERS] = {0};
+    REQUIRE(virga_lens_set(h->f.lens, &h->f.settings) == VIRGA_OK);
+    upload(h, layers);
+    const VkCommandBuffer cmd = effect_fixture_begin(&h->f.gpu, h->f.context);
+    REQUIRE(virga_lens_prepare(h->f.lens, cmd, &h->f.view, layers, h->f.layer_count, 0) == VIRGA_OK);
+    begin(h, cmd);
+    REQUIRE(virga_lens_draw(h->f.lens, cmd, h->target) == VIRGA_OK);
+    end(h, cmd);
+}
+
+/* ---- pictures */
+
+/* Values that half floats have, so that both ways begin with the same color. */
+static float gray(uint32_t *hash)
+{
+    return (float)(floor(lens_random(hash) * 64) + 1) / 64;
+}
+
+/* Noise and lamps: in focus on the left, then 8 px behind it, then up to 7 px in front of it, in small steps from there
+ * to the focus at the bottom. */
+static void paint_all_kinds(const lens_picture *scene)
+{
+    uint32_t hash = 11;
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const double near = 1 / (1 + 0.7 * (1 - (double)y / HEIGHT));
+            lens_paint(scene, x, y, lens_random(&hash) < 0.01 ? 20 : gray(&hash), x < 100 ? 1 : x < 150 ? 5 : near);
+        }
+}
+
+static void paint_layers(lens_fixture *f, uint32_t count)
+{
+    uint32_t hash = 5;
+    for (uint32_t i = 0; i < count; i++) {
+        const lens_picture *layer = lens_fixture_layer(f, i == 1 ? 0 : 0.9f);
+        for (uint32_t k = 0; k < WIDTH * HEIGHT; k++) {
+            const float share = lens_random(&hash) < 0.1 ? 0.75f : 0;
+            for (int c = 0; c < 4; c++)
+                layer->color[4 * k + (uint32_t)c] = share * (c == 3 ? 1 : 0.5f);
+            layer->depth[k] = (float)(0.5 + lens_random(&hash));
+        }
+    }
+}
+
+typedef struct kind_of_frame {
+    uint32_t layers;
+    float cats_eye, aperture_scale;
+    bool flat;
+} kind_of_frame;
+
+static void set_up(lens_fixture *f, const kind_of_frame *kind)
+{
+    paint_all_kinds(&f->scene);
+    paint_layers(f, kind->layers);
+    f->settings.cats_eye = kind->cats_eye;
+    f->settings.blades = kind->cats_eye > 0 ? 6 : 0;
+    f->settings.aperture_f /= kind->aperture_scale;
+    f->flat = kind->flat;
+}
+
+/* The picture of a lens with an image of its own. */
+static float *run_apart(const kind_of_frame *kind)
+{
+    lens_fixture f;
+    lens_fixture_open(&f, WIDTH, HEIGHT, true);
+    set_up(&f, kind);
+    lens_fixture_run(&f);
+    float *result = f.result;
+    f.result = NULL;
+    lens_fixture_close(&f);
+    return result;
+}
+
+/* ---- tests */
+
+static const virga_target_kind target_kinds[] = {VIRGA_TARGET_RENDER_PASS, VIRGA_TARGET_DYNAMIC};
+
+/* Half floats have 11 bits, and are truncated on some devices. What is beneath and what is blended over it are rounded
+ * one after the other. */
+static void the_picture_is_that_of_an_image_of_its_own(void **state)
+{
+    static const kind_of_frame frames[] = {{.aperture_scale = 1},
+                                           {.aperture_scale = 2, .cats_eye = 0.5f},
+                                           {.aperture_scale = 1, .layers = 1},
+                                           {.aperture_scale = 1, .layers = 3},
+                                           {.aperture_scale = 1, .layers = 2, .flat = true}};
+    (void)state;
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        float *apart = run_apart(&frames[i]);
+        for (int k = 0; k < 2; k++) {
+            host h;
+            double worst = 0;
+            if (!open_host(&h, target_kinds[k], WIDTH, HEIGHT, 1))
+                continue;
+            set_up(&h.f, &frames[i]);
+            run(&h);
+            for (size_t p = 0; p < 4u * WIDTH * HEIGHT; p++)
+                worst = fmax(worst, fabs((double)h.f.result[p] - (double)apart[p]) / (0.01 + fabs((double)apart[p])));
+            printf("frame %zu, target %d: up to %.2g apart\n", i, k, worst);
+            assert_true(worst < 3.0 / 1024);
+            close_host(&h);
+        }
+        free(apart);
+    }
+}
+
+/* The target holds something else there than what the lens was given, and keeps it to the last bit. */
+static void what_nothing_out_of_focus_reaches_is_not_touched(void **state)
+{
+    (void)state;
+    host h;
+    REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
+    paint_all_kinds(&h.f.scene);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < 2 * TILE; x++) {
+            float *pixel = lens_pixel(&h.f.scene, x, y);
+            pixel[0] = x % 3 ? -INFINITY : NAN;
+            pixel[3] = 0.25f;
+        }
+    run(&h);
+    const uint16_t *halves = h.f.download.mapped;
+    for (uint32_t i = 0; i < WIDTH * HEIGHT * 4; i++)
+        if (i / 4 % WIDTH < 2 * TILE)
+            assert_int_equal(halves[i], half_of(h.f.scene.color[i]));
+    assert_true(isfinite(h.f.result[4 * (HEIGHT / 2 * WIDTH + 2 * TILE)]));
+    close_host(&h);
+}
+
+/* Nothing at all is drawn, or every tile. */
+static void all_in_focus_and_all_out_of_focus(void **state)
+{
+    (void)state;
+    host h;
+    REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
+    uint32_t hash = 9;
+    for (int frame = 0; frame < 4; frame++) {
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++)
+                lens_paint(&h.f.scene, x, y, frame & 1 ? 0.5f : gray(&hash), frame & 1 ? frame == 1 ? 0 : 0.6 : 1);
+        lens_paint(&h.f.scene, WIDTH / 2, HEIGHT / 2, 1000, frame & 1 ? frame == 1 ? 0 : 0.6 : 1);
+        run(&h);
+        for (uint32_t i = 0; i < WIDTH * HEIGHT * 4 && !(frame & 1); i++)
+            assert_float_equal(h.f.result[i], h.f.scene.color[i], 0);
+        if (frame & 1) {
+            const double added = lens_light(h.f.result, &h.f) - 0.5 * WIDTH * HEIGHT;
+            assert_float_equal(added, 999.5, 5);
+            assert_true(lens_result(&h.f, WIDTH / 2, HEIGHT / 2) < 20);
+        }
+    }
+    close_host(&h);
+}
+
+static void a_picture_of_one_pixel_is_itself(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        host h;
+        if (!open_host(&h, target_kinds[k], 1, 1, 1))
+            continue;
+        lens_paint_all(&h.f.scene, 3, 0.2);
+        run(&h);
+        assert_float_equal(lens_result(&h.f, 0, 0), 3, 4e-3);
+        close_host(&h);
+    }
+}
+
+/* Each draw has the tiles of its own view, although the other one was prepared before or after it. */
+static void views_of_a_frame_keep_their_tiles(void **state)
+{
+    (void)state;
+    host h;
+    virga_prepared views[2];
+    REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 2));
+    REQUIRE(virga_lens_set(h.f.lens, &h.f.settings) == VIRGA_OK);
+    for (int drawn = 0; drawn < 2; drawn++) {
+        virga_image depths[2];
+        drop_images(&h);
+        for (int i = 0; i < 2; i++) {
+            lens_paint_all(&h.f.scene, 0.25f, i ? 0.5 : 1);
+            lens_paint(&h.f.scene, WIDTH / 2, HEIGHT / 2, 1000, i ? 0.5 : 1);
+            depths[i] = lens_upload(&h.f, &h.f.scene, true, &h.depths[i]);
+        }
+        upload_color(&h);
+        const VkCommandBuffer cmd = effect_fixture_begin(&h.f.gpu, h.f.context);
+        for (int i = 0; i < 2; i++) {
+            h.f.view.depth = depths[i];
+            REQUIRE(virga_lens_prepare_view(h.f.lens, cmd, &h.f.view, NULL, 0, 0, &views[i]) == VIRGA_OK);
+        }
+        begin(&h, cmd);
+        REQUIRE(virga_lens_draw_view(h.f.lens, cmd, h.target, views[drawn]) == VIRGA_OK);
+        end(&h, cmd);
+        assert_true(drawn ? lens_result(&h.f, WIDTH / 2, HEIGHT / 2) < 20
+                          : lens_result(&h.f, WIDTH / 2, HEIGHT / 2) >= 1000);
+        assert_true((lens_result(&h.f, WIDTH / 2 + 6, HEIGHT / 2) > 1) == (drawn == 1));
+    }
+    close_host(&h);
+}
+
+static void what_it_cannot_do_is_refused_with_a_line(void **state)
+{
+    (void)state;
+    host h;
+    virga_lens_image picture;
+    virga_lens *wrong;
+    virga_target *encoded;
+    virga_lens_def def = virga_default_lens_def();
+    REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, 32, 32, 1));
+    lens_paint_all(&h.f.scene, 0.5f, 1);
+    run(&h);
+    const uint32_t lines = h.f.log_lines;
+    def.in_place = 1;
+    assert_int_equal(virga_lens_create(h.f.context, &def, &wrong), VIRGA_ERROR_INVALID);
+    def.half_resolution = def.circles = 1;
+    assert_int_equal(virga_lens_create(h.f.context, &def, &wrong), VIRGA_ERROR_INVALID);
+    h.f.settings.style = VIRGA_LENS_STYLE_PAPER;
+    assert_int_equal(virga_lens_set(h.f.lens, &h.f.settings), VIRGA_ERROR_INVALID);
+    virga_lens_picture(h.f.lens, &picture);
+    assert_true(!picture.image && !picture.view);
+    REQUIRE(create_target(&h, VIRGA_ENCODING_SRGB, &encoded) == VIRGA_OK);
+    REQUIRE(virga_lens_attach(h.f.lens, encoded) == VIRGA_OK);
+    h.f.settings.style = VIRGA_LENS_STYLE_PHYSICAL;
+    upload(&h, NULL);
+    const VkCommandBuffer cmd = effect_fixture_begin(&h.f.gpu, h.f.context);
+    REQUIRE(virga_lens_prepare(h.f.lens, cmd, &h.f.view, NULL, 0, 0) == VIRGA_OK);
+    begin(&h, cmd);
+    assert_int_equal(virga_lens_draw_part(h.f.lens, cmd, h.target, 0), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_lens_draw(h.f.lens, cmd, encoded), VIRGA_ERROR_INVALID);
+    assert_int_equal(h.f.log_lines - lines, 5);
+    end(&h, cmd);
+    virga_target_destroy(&encoded);
+    close_host(&h);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_picture_is_that_of_an_image_of_its_own),
+        cmocka_unit_test(what_nothing_out_of_focus_reaches_is_not_touched),
+        cmocka_unit_test(all_in_focus_and_all_out_of_focus),
+        cmocka_unit_test(a_picture_of_one_pixel_is_itself),
+        cmocka_unit_test(views_of_a_frame_keep_their_tiles),
+        cmocka_unit_test(what_it_cannot_do_is_refused_with_a_line),
+    };
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
+}
