@@ -137,7 +137,7 @@ static void fit_mist(virga_glass *glass, virga_glass_picture_gpu *look)
     struct glass_picture *picture = &glass->picture;
     const float texel = look->texel_m[0] > look->texel_m[1] ? look->texel_m[0] : look->texel_m[1];
     uint32_t cells = 1;
-    picture->beads = VIRGA_GLASS_BEAD_CELLS * glass->def.cell_m > VIRGA_GLASS_BEAD_SEEN * texel;
+    picture->beads = glass_picture_has_beads(glass->def.cell_m, texel);
     while ((glass->columns - 1) / cells >= picture->max_mist.width ||
            (glass->rows - 1) / cells >= picture->max_mist.height || 1.5f * (float)cells * glass->def.cell_m < texel)
         cells *= 2;
@@ -379,16 +379,17 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
         offsetof(glass_readback, prepared[virga_effect_view_index(&glass->base)]), 2 * sizeof(uint32_t));
 }
 
-/* Checks that the gather passes of this pane's density and blend are built. */
+/* Checks that the gather passes of this pane are built. Where passes are built on use, recording builds the two that
+ * this view needs. */
 static virga_result gathers_ready(const virga_glass *glass)
 {
-    if (glass_is_all_textured(&glass->settings))
+    if (glass_is_all_textured(&glass->settings) || glass->base.context->pipeline_build_mode == VIRGA_PIPELINES_ON_USE)
         return VIRGA_OK;
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     const virga_pipeline *gathers[] = {glass->picture.gather_passes[mode],
                                        glass->picture.gather_passes[mode | GLASS_GATHER_FILM],
                                        glass->picture.gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
-    return virga_pipelines_ready(gathers, 3);
+    return virga_pipelines_ready(gathers, glass->picture.any_beads ? 3 : 2);
 }
 
 virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)

@@ -139,8 +139,13 @@ uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settin
            (settings->pinning > 0 ? GLASS_GATHER_PINNED : 0);
 }
 
-/* Creates the gather passes for these settings that do not exist yet: without film, with sheets of film, and with
- * sheets and beads. There are 360 variants in total, and a pane uses three. */
+bool glass_picture_has_beads(float cell_m, float texel_m)
+{
+    return VIRGA_GLASS_BEAD_CELLS * cell_m > VIRGA_GLASS_BEAD_SEEN * texel_m;
+}
+
+/* Creates the gather passes for these settings that do not exist yet: without film, with sheets of film, and, if the
+ * finest height map shows beads, with sheets and beads. There are 360 variants in total. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
@@ -149,7 +154,8 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
                                : picture->lanes <= 8 ? VIRGA_SPIRV(glass_draw_height_narrow_comp)
                                                      : VIRGA_SPIRV(glass_draw_height_shuffle_comp);
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < 3 && !glass_is_all_textured(settings); i++) {
+    const uint32_t count = glass_is_all_textured(settings) ? 0 : picture->any_beads ? 3 : 2;
+    for (uint32_t i = 0; i < count; i++) {
         const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->shared,
@@ -195,6 +201,9 @@ virga_result glass_picture_create(virga_glass *glass)
     struct glass_picture *picture = &glass->picture;
     glass_picture_fill_sizes(&glass->def, picture);
     picture->whole_map = glass->def.height_map;
+    const float width_m = (float)((double)glass->def.width_m / picture->max_columns);
+    const float height_m = (float)((double)glass->def.height_m / picture->max_rows);
+    picture->any_beads = glass_picture_has_beads(glass->def.cell_m, width_m > height_m ? width_m : height_m);
     picture->filtered = can_filter(glass->base.context);
     picture->lanes = shuffled_lanes(glass->base.context);
     return create_reliefs(glass);

@@ -46,7 +46,7 @@ enum {
 #define GLASS_MIST_SEVERAL       1u    /* several cells per texel */
 #define GLASS_MIST_MASKED        2u    /* some cells may have no glass */
 #define GLASS_MIST_FORMS         4     /* passes, by these bits */
-/* Combinations of GLASS_GATHER_... bits. Three are created per density, blend, style and compression in use. */
+/* Combinations of GLASS_GATHER_... bits. Two or three are created per density, blend, style and compression in use. */
 #define GLASS_GATHERS 2048
 
 #define GLASS_ALL_TEXTURED 1e30f /* virga_glass_picture_gpu.textured_px: all drops are drawn as textures */
@@ -113,7 +113,8 @@ struct glass_picture {
     uint32_t columns, rows;                   /* texels of the height map that the newest prepare uses */
     VkExtent2D mist_size;                     /* the same of the mist map */
     uint32_t mist_cells;
-    bool beads; /* beads of film may be drawn as drops in this view */
+    bool any_beads; /* beads of film may be drawn as drops in some view */
+    bool beads;     /* the same in the newest prepare */
 };
 
 /* ---- glass_picture.c */
@@ -127,6 +128,9 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
 /* Creates the passes that depend on the device or on settings. The buffers, images and layouts must exist. */
 virga_result glass_picture_create(virga_glass *glass);
 void glass_picture_destroy(virga_glass *glass);
+
+/* Whether a bead of film is large enough for a shape, on a height map with texels of this side. */
+bool glass_picture_has_beads(float cell_m, float texel_m);
 
 /* Creates the missing pipelines that these settings need, see virga_context_def.pipeline_build_mode. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings);

@@ -143,6 +143,7 @@ static virga_scene *open_scene(virga_context *context)
     virga_glass_def panes[SMALL_PANES];
     virga_scene_def def = small_scene_def(panes);
     virga_scene *scene;
+    panes[0].max_texels = panes[1].max_texels = 256; /* so fine that beads of film have shapes: a pass of their own */
     def.with_water = true;
     assert_int_equal(virga_scene_create(context, &def, &scene), VIRGA_OK);
     assert_int_equal(small_shapes_set(scene), VIRGA_OK);

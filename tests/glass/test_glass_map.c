@@ -333,6 +333,48 @@ static void a_film_ends_on_the_glass_beside_drops(void **state)
     shot_close(&s);
 }
 
+/* ---- passes */
+
+/* Gather passes of a pane, all or those that are built. */
+static int count_gathers(const shot *s, bool built)
+{
+    int count = 0;
+    for (int i = 0; i < GLASS_GATHERS; i++) {
+        const virga_pipeline *pass = s->glass->picture.gather_passes[i];
+        count += pass && (!built || pass->pipeline);
+    }
+    return count;
+}
+
+static void a_view_builds_the_gathers_that_it_needs(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    REQUIRE(count_gathers(&s, false) == 3 && count_gathers(&s, true) == 0);
+    put_film(&s, 20);
+    shot_draw(&s, false);
+    REQUIRE(count_gathers(&s, true) == 2);
+    shot_close(&s);
+}
+
+/* The finest map of a pane of 192 texels has texels of 0.5 mm, one of 64 of 1.5 mm. Beads with a radius of a third of
+ * its cells of 2 mm are then below half a texel. */
+static void a_map_too_coarse_for_beads_has_no_gather_for_them(void **state)
+{
+    (void)state;
+    shot s;
+    virga_glass_def def = shot_def();
+    def.max_texels = 64;
+    shot_open(&s, &def, WIDTH, HEIGHT, false);
+    shot_face(&s, 1, 30);
+    put_film(&s, 20);
+    shot_draw(&s, false);
+    REQUIRE(!s.glass->picture.beads);
+    REQUIRE(count_gathers(&s, false) == 2 && count_gathers(&s, true) == 2);
+    shot_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +386,8 @@ int main(void)
         cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(what_no_view_has_written_is_zero),
+        cmocka_unit_test(a_view_builds_the_gathers_that_it_needs),
+        cmocka_unit_test(a_map_too_coarse_for_beads_has_no_gather_for_them),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
