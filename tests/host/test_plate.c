@@ -99,7 +99,7 @@ static bool build(scene *s)
     size_t size = sizeof s->base.error;
     host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
     return host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
-           host_renderer_create(device, &s->target, &s->renderer, error, size) && make_plane(s) && make_cube(s) &&
+           host_renderer_create(device, &s->renderer, error, size) && make_plane(s) && make_cube(s) &&
            host_renderer_add(s->renderer, &s->plane, error, size) &&
            host_renderer_add(s->renderer, &s->cube, error, size) &&
            host_environment_create(device, &white, &s->environment, error, size) &&
@@ -139,7 +139,8 @@ static bool draw(scene *s, uint32_t samples)
             return false;
         if (s->rain && !begin_rain(s, cmd))
             return false;
-        host_renderer_plate(s->renderer, cmd, &s->target, &now, &before);
+        if (!host_renderer_plate(s->renderer, cmd, &s->target, &now, &before, s->base.error, sizeof s->base.error))
+            return false;
         if (s->target.layer_count > 1) {
             host_target_begin_output(&s->target, cmd, HOST_LAYER + 1);
             fill_layer(cmd, 0.25f * (float)(i + 1));

@@ -63,7 +63,7 @@ static bool build(scene *s)
     const size_t size = sizeof s->base.error;
     const host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1};
     return host_target_create(device, SIDE, SIDE, &s->target, error, size) &&
-           host_renderer_create(device, &s->target, &s->renderer, error, size) && add_quad(s, 0, wall, out, 0.9f, 0) &&
+           host_renderer_create(device, &s->renderer, error, size) && add_quad(s, 0, wall, out, 0.9f, 0) &&
            add_quad(s, 1, awning, up, 0.9f, 0) && add_quad(s, 2, sheet, out, 0.5f, 1) &&
            host_environment_create(device, &white, &s->environment, error, size) &&
            host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
@@ -113,7 +113,7 @@ static void draw(scene *s, const virga_walls *walls)
     host_accumulator_reset(&s->sums);
     assert_true(host_renderer_set_walls(s->renderer, walls, error, size));
     assert_true(host_begin_frame(device, &cmd, error, size));
-    host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera);
+    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
     host_target_begin_layer(&s->target, cmd);
     host_target_end_layer(&s->target, cmd);
     assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));

@@ -52,8 +52,7 @@ static bool create_white(host_renderer *r, char *error, size_t error_size)
     return host_image_create_with(r->device, &def, texel, sizeof texel, 4, &r->white, error, error_size);
 }
 
-bool host_renderer_create(host_device *device, const host_target *target, host_renderer **renderer, char *error,
-                          size_t error_size)
+bool host_renderer_create(host_device *device, host_renderer **renderer, char *error, size_t error_size)
 {
     *renderer = NULL;
     host_renderer *r = calloc(1, sizeof *r);
@@ -66,7 +65,7 @@ bool host_renderer_create(host_device *device, const host_target *target, host_r
                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                  HOST_BUFFER_DEVICE, "plate frame", &r->frame_buffer, error, error_size) &&
               create_white(r, error, error_size) && create_blank_spots(r, error, error_size) &&
-              host_renderer_build_pipelines(r, target->plate_pass, error, error_size) &&
+              host_renderer_create_bindings(r, error, error_size) &&
               host_skylight_create(device, r->material_layout, &r->skylight, error, error_size);
     if (ok)
         write_frame(r);
@@ -193,8 +192,7 @@ bool host_renderer_set_mirror(host_renderer *r, const host_target *target, doubl
     if (r->mirror.width || !r->device->clip_distance)
         return true;
     const uint32_t width = (target->width + 1) / 2, height = (target->height + 1) / 2;
-    if (!host_mirror_create(r->device, width, height, &r->mirror, error, error_size) ||
-        !host_renderer_build_mirror(r, error, error_size))
+    if (!host_mirror_create(r->device, width, height, &r->mirror, error, error_size))
         return false;
     write_image(r, FRAME_AT_MIRROR, HOST_SAMPLE_LINEAR, &r->mirror.color);
     write_image(r, FRAME_AT_MIRROR_NEAR, HOST_SAMPLE_LINEAR, &r->mirror.near);
@@ -215,8 +213,7 @@ bool host_renderer_set_footage(host_renderer *r, const host_target *target, cons
                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     host_set_write_image(r->device, r->footage_set, 1, r->samplers[HOST_SAMPLE_NEAREST],
                          target->images[HOST_DEPTH].view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
-    return r->pipelines[HOST_PIPELINE_FOOTAGE][false] ||
-           host_renderer_build_footage(r, target->plate_pass, error, error_size);
+    return true;
 }
 
 void host_renderer_haze_mirror(host_renderer *r, host_draw_haze draw, void *user)

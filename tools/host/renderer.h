@@ -13,9 +13,8 @@
 
 typedef struct host_renderer host_renderer; /* opaque */
 
-/* Builds pipelines and samplers for targets like `target` (of any size). */
-bool host_renderer_create(host_device *device, const host_target *target, host_renderer **renderer, char *error,
-                          size_t error_size);
+/* A renderer for any targets. */
+bool host_renderer_create(host_device *device, host_renderer **renderer, char *error, size_t error_size);
 void host_renderer_destroy(host_renderer **renderer); /* accepts a pointer to NULL; the device must be idle */
 
 /* Adds a mesh, which must outlive the renderer. Its primitives get the next ids. */
@@ -54,9 +53,10 @@ void host_renderer_haze_mirror(host_renderer *renderer, host_draw_haze draw, voi
 /* What virga_target_create needs for that pass, into a default definition. False: there is no mirror. */
 bool host_renderer_describe_mirror(const host_renderer *renderer, virga_target_def *def);
 
-/* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. */
-void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
-                         const host_camera *camera, const host_camera *previous);
+/* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. Builds the pipelines that are
+ * drawn with for the first time; fails if the device can not. */
+bool host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
+                         const host_camera *camera, const host_camera *previous, char *error, size_t error_size);
 
 /* Sets the mesh that is the ground on a picture which replaces the plate; it was added before. Its material has a base
  * texture, over the whole picture: red is the share of a pixel that is ground. Fails on devices without independent
@@ -67,9 +67,9 @@ bool host_renderer_set_footage(host_renderer *renderer, const host_target *targe
 
 /* Records what water on that ground changes of the picture: it darkens what is soaked, and mirrors the environment and
  * other meshes where it stands. Also normal, velocity, water and id of the ground. After host_target_fill_plate. Does
- * nothing without maps of wet ground. */
-void host_renderer_footage(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
-                           const host_camera *camera, const host_camera *previous);
+ * nothing without maps of wet ground. Builds pipelines as host_renderer_plate does. */
+bool host_renderer_footage(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
+                           const host_camera *camera, const host_camera *previous, char *error, size_t error_size);
 
 /* The primitive behind an id of the plate (HOST_ID), or NULL for the sky. */
 const host_primitive *host_renderer_primitive(const host_renderer *renderer, uint32_t id);

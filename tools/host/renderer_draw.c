@@ -88,25 +88,40 @@ static bool is_drawn_by(const host_material *material, host_pipeline kind)
     }
 }
 
-typedef const VkPipeline (*pipelines)[2]; /* the plate's, or the mirror's */
-
-/* What is bound while a kind is drawn. */
+/* What is bound while the plate or the mirror is drawn, and whether a pipeline could not be built. */
 typedef struct drawing {
-    const host_renderer *renderer;
+    host_renderer *renderer;
     VkCommandBuffer cmd;
-    pipelines from;
+    VkRenderPass pass; /* of the plate or of the mirror */
     VkPipeline bound;
+    bool failed;
+    char *error;
+    size_t error_size;
 } drawing;
 
-static void draw_indices(drawing *d, host_pipeline kind, bool two_sided, uint32_t first, uint32_t count)
+static bool is_mirror(const drawing *d)
 {
-    const VkPipeline pipeline = d->from[kind][two_sided];
-    if (!count)
-        return;
+    return d->pass == d->renderer->mirror.pass;
+}
+
+static bool bind(drawing *d, host_pipeline kind, bool two_sided)
+{
+    VkPipeline pipeline;
+    if (d->failed ||
+        !host_renderer_pipeline(d->renderer, d->pass, kind, two_sided, &pipeline, d->error, d->error_size)) {
+        d->failed = true;
+        return false;
+    }
     if (d->bound != pipeline)
         vkCmdBindPipeline(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     d->bound = pipeline;
-    vkCmdDrawIndexed(d->cmd, count, 1, first, 0, 0);
+    return true;
+}
+
+static void draw_indices(drawing *d, host_pipeline kind, bool two_sided, uint32_t first, uint32_t count)
+{
+    if (count && bind(d, kind, two_sided))
+        vkCmdDrawIndexed(d->cmd, count, 1, first, 0, 0);
 }
 
 /* Where no water can lie a smaller shader comes to the same bits. */
@@ -115,7 +130,7 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
 {
     const uint32_t first = primitive->first_index, count = primitive->index_count;
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
-    if (d->from == (pipelines)d->renderer->mirror_pipelines || (kind == HOST_PIPELINE_GLASS && level))
+    if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */
     if (kind == HOST_PIPELINE_DEPTH || kind == HOST_PIPELINE_CUTOUT || kind == HOST_PIPELINE_FOOTAGE)
         level = count;
@@ -145,27 +160,26 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
     }
 }
 
-static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, pipelines from, host_pipeline kind)
+static void draw_entries(drawing *d, host_pipeline kind)
 {
-    const bool mirrored = from == (pipelines)r->mirror_pipelines;
-    drawing d = {.renderer = r, .cmd = cmd, .from = from};
+    const host_renderer *r = d->renderer;
     for (uint32_t i = 0; i < r->entry_count; i++)
-        if (!mirrored || !r->entries[i].mesh->apart)
-            draw_entry(&d, &r->entries[i], kind);
+        if (!is_mirror(d) || !r->entries[i].mesh->apart)
+            draw_entry(d, &r->entries[i], kind);
 }
 
-static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines from)
+static void draw_scene(drawing *d)
 {
-    draw_entries(r, cmd, from, HOST_PIPELINE_DEPTH);
-    draw_entries(r, cmd, from, HOST_PIPELINE_CUTOUT);
-    draw_entries(r, cmd, from, HOST_PIPELINE_SHADE);
-    const host_pipeline sky = r->footage ? HOST_PIPELINE_FOOTAGE_MIRROR : HOST_PIPELINE_SKY;
+    const host_renderer *r = d->renderer;
+    draw_entries(d, HOST_PIPELINE_DEPTH);
+    draw_entries(d, HOST_PIPELINE_CUTOUT);
+    draw_entries(d, HOST_PIPELINE_SHADE);
     if (r->footage)
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1, &r->footage_set, 0,
+        vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1, &r->footage_set, 0,
                                 NULL);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[sky][1]);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
-    draw_entries(r, cmd, from, HOST_PIPELINE_GLASS);
+    if (bind(d, r->footage ? HOST_PIPELINE_FOOTAGE_MIRROR : HOST_PIPELINE_SKY, true))
+        vkCmdDraw(d->cmd, 3, 1, 0, 0);
+    draw_entries(d, HOST_PIPELINE_GLASS);
 }
 
 /* ---- skylight ----------------------------------------------------------------------------------------------- */
@@ -290,58 +304,67 @@ static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, cons
 }
 
 /* The pass is begun even if nothing is drawn, because the plate's shaders need the images in their layouts. */
-static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
-                          const host_camera *camera)
+static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
+                          const host_camera *camera, char *error, size_t error_size)
 {
+    drawing d = {.renderer = r, .cmd = cmd, .pass = r->mirror.pass, .error = error, .error_size = error_size};
     if (!r->mirror.width)
-        return;
+        return true;
     host_label_begin(r->device, cmd, "mirror");
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
     host_mirror_begin(&r->mirror, cmd);
     if (frame->mirror[2] > 0.0f)
-        draw_scene(r, cmd, (pipelines)r->mirror_pipelines);
+        draw_scene(&d);
     vkCmdEndRenderPass(cmd);
     if (frame->mirror[2] > 0.0f && r->draw_haze)
         record_mirror_haze(r, cmd, camera);
     host_mirror_copy_down(&r->mirror, cmd);
     host_label_end(r->device, cmd);
+    return !d.failed;
 }
 
 /* What both draws over a plate begin with: buffers of the frame, the mirror, and the descriptors. */
-static void begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
-                        const host_camera *previous, const char *label)
+static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                        const host_camera *previous, const char *label, char *error, size_t error_size)
 {
     struct host_frame_gpu frame;
     update_skylight(r, cmd, camera);
     update_shelter(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
-    record_mirror(r, cmd, &frame, camera);
+    if (!record_mirror(r, cmd, &frame, camera, error, error_size))
+        return false;
     host_label_begin(r->device, cmd, label);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    return true;
 }
 
-void host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
-                           const host_camera *previous)
+bool host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                           const host_camera *previous, char *error, size_t error_size)
 {
     if (!r->footage || !r->ground.cells)
-        return;
-    drawing d = {.renderer = r, .cmd = cmd, .from = (pipelines)r->pipelines};
-    begin_plate(r, cmd, target, camera, previous, "footage");
+        return true;
+    drawing d = {.renderer = r, .cmd = cmd, .pass = target->plate_pass, .error = error, .error_size = error_size};
+    if (!begin_plate(r, cmd, target, camera, previous, "footage", error, error_size))
+        return false;
     host_target_begin_over(target, cmd);
     for (uint32_t i = 0; i < r->entry_count; i++)
         if (r->entries[i].mesh == r->footage)
             draw_entry(&d, &r->entries[i], HOST_PIPELINE_FOOTAGE);
     host_target_end_plate(target, cmd);
     host_label_end(r->device, cmd);
+    return !d.failed;
 }
 
-void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
-                         const host_camera *previous)
+bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                         const host_camera *previous, char *error, size_t error_size)
 {
-    begin_plate(r, cmd, target, camera, previous, "plate");
+    drawing d = {.renderer = r, .cmd = cmd, .pass = target->plate_pass, .error = error, .error_size = error_size};
+    if (!begin_plate(r, cmd, target, camera, previous, "plate", error, error_size))
+        return false;
     host_target_begin_plate(target, cmd);
-    draw_scene(r, cmd, (pipelines)r->pipelines);
+    draw_scene(&d);
     host_target_end_plate(target, cmd);
     host_label_end(r->device, cmd);
+    return !d.failed;
 }

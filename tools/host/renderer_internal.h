@@ -54,7 +54,7 @@ struct host_renderer {
     VkSampler samplers[HOST_SAMPLINGS];
     VkDescriptorSetLayout material_layout;
     host_bindings bindings;
-    VkPipeline pipelines[HOST_PIPELINE_COUNT][2]; /* [1]: two-sided */
+    VkPipeline pipelines[HOST_PIPELINE_COUNT][2]; /* [1]: two-sided; NULL: not drawn with yet */
     VkPipeline mirror_pipelines[HOST_PIPELINE_COUNT][2];
     host_buffer frame_buffer;
     host_image white, blank_spots;
@@ -82,13 +82,11 @@ struct host_renderer {
 void host_renderer_fill_frame(const host_renderer *renderer, const host_target *target, const host_camera *camera,
                               const host_camera *previous, struct host_frame_gpu *frame);
 
-/* renderer_pipelines.c: set layouts, pipeline layout and all pipelines of the plate. */
-bool host_renderer_build_pipelines(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
+/* renderer_pipelines.c: set layouts and the pipeline layout. */
+bool host_renderer_create_bindings(host_renderer *renderer, char *error, size_t error_size);
 
-/* The pipeline of HOST_PIPELINE_FOOTAGE. */
-bool host_renderer_build_footage(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
-
-/* The pipelines of the mirror, which exists already; after host_renderer_set_footage. */
-bool host_renderer_build_mirror(host_renderer *renderer, char *error, size_t error_size);
+/* A pipeline for the pass of the mirror, or else of a plate. It is built where it is not there yet. */
+bool host_renderer_pipeline(host_renderer *renderer, VkRenderPass pass, host_pipeline kind, bool two_sided,
+                            VkPipeline *pipeline, char *error, size_t error_size);
 
 #endif

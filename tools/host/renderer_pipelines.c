@@ -1,4 +1,4 @@
-/* renderer_pipelines.c - layouts and pipelines of the plate. */
+/* renderer_pipelines.c - layouts of the plate, and its pipelines, which are built by their first draws. */
 #include <string.h>
 
 #include "pipeline.h"
@@ -23,7 +23,7 @@ static const VkDescriptorType types[FRAME_BINDINGS] = {
 
 const host_set_shape host_material_shape = {types + 1, 2, VK_SHADER_STAGE_FRAGMENT_BIT};
 
-static bool create_bindings(host_renderer *r, char *error, size_t error_size)
+bool host_renderer_create_bindings(host_renderer *r, char *error, size_t error_size)
 {
     if (!host_set_layout_create(r->device, &host_material_shape, &r->material_layout, error, error_size))
         return false;
@@ -85,14 +85,6 @@ static host_code code_of(int shader, bool mirror)
     }
 }
 
-/* A set of all pipelines: the plate's, or the mirror's. */
-typedef struct pipeline_set {
-    VkRenderPass pass;
-    uint32_t colors; /* attachments of the pass */
-    bool mirror;
-    VkPipeline (*pipelines)[2];
-} pipeline_set;
-
 /* Glass only changes the color. Normal, velocity, id and depth are those of the surface behind it. */
 static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
 {
@@ -102,65 +94,35 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
             states[i] = recipes[kind].blend && i == 0 ? host_blend_over : host_blend_replace;
 }
 
-static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipeline kind, bool two_sided, char *error,
-                            size_t error_size)
+static bool create_pipeline(host_renderer *r, VkRenderPass pass, host_pipeline kind, bool two_sided,
+                            VkPipeline *pipeline, char *error, size_t error_size)
 {
+    const bool mirror = pass == r->mirror.pass;
     VkPipelineColorBlendAttachmentState colors[HOST_PLATE_COLORS];
     fill_blend(kind, colors);
     const host_graphics_def def = {
-        .vertex = code_of(recipes[kind].vertex, set->mirror),
-        .fragment = code_of(recipes[kind].fragment, set->mirror),
+        .vertex = code_of(recipes[kind].vertex, mirror),
+        .fragment = code_of(recipes[kind].fragment, mirror),
         .layout = r->bindings.layout,
-        .pass = set->pass,
+        .pass = pass,
         .attribute_count = recipes[kind].vertex == SHADER_SKY_VERT ? 0 : 3,
         .cull = two_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
-        .front = set->mirror ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .front = mirror ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .depth_test = true,
         .depth_write = recipes[kind].write_depth,
         .compare = recipes[kind].compare,
         .colors = colors,
-        .color_count = set->colors,
+        .color_count = mirror ? 2 : HOST_PLATE_COLORS,
     };
-    return host_graphics_create(r->device, &def, &set->pipelines[kind][two_sided], error, error_size);
+    return host_graphics_create(r->device, &def, pipeline, error, error_size);
 }
 
-/* ---- all of them -------------------------------------------------------------------------------------------- */
-
-/* Devices without independent blending have meshes without glass. Those of footage are built where it has a ground. */
-static bool is_used(const host_renderer *r, const pipeline_set *set, int kind)
+/* A scene draws with a few of them, and a driver takes as long for each as for a small picture. */
+bool host_renderer_pipeline(host_renderer *r, VkRenderPass pass, host_pipeline kind, bool two_sided,
+                            VkPipeline *pipeline, char *error, size_t error_size)
 {
-    if (kind == HOST_PIPELINE_FOOTAGE || kind == HOST_PIPELINE_FOOTAGE_MIRROR)
-        return false;
-    if (set->mirror && (kind == HOST_PIPELINE_DRY || kind == HOST_PIPELINE_DRY_GLASS))
-        return false;
-    return r->device->independent_blend || !recipes[kind].blend;
-}
-
-static bool build(host_renderer *r, pipeline_set *set, char *error, size_t error_size)
-{
-    bool ok = true;
-    for (int kind = 0; ok && kind < HOST_PIPELINE_COUNT; kind++) {
-        for (int two_sided = 0; ok && two_sided < 2 && is_used(r, set, kind); two_sided++)
-            ok = create_pipeline(r, set, (host_pipeline)kind, two_sided, error, error_size);
-    }
+    VkPipeline *built = &(pass == r->mirror.pass ? r->mirror_pipelines : r->pipelines)[kind][two_sided];
+    const bool ok = *built || create_pipeline(r, pass, kind, two_sided, built, error, error_size);
+    *pipeline = *built;
     return ok;
-}
-
-bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
-{
-    pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
-    return create_bindings(r, error, error_size) && build(r, &set, error, error_size);
-}
-
-bool host_renderer_build_footage(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
-{
-    pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
-    return create_pipeline(r, &set, HOST_PIPELINE_FOOTAGE, false, error, error_size);
-}
-
-bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)
-{
-    pipeline_set set = {.pass = r->mirror.pass, .colors = 2, .mirror = true, .pipelines = r->mirror_pipelines};
-    return build(r, &set, error, error_size) &&
-           (!r->footage || create_pipeline(r, &set, HOST_PIPELINE_FOOTAGE_MIRROR, true, error, error_size));
 }

@@ -113,11 +113,8 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
         if (tool_effects[i]->before_plate &&
             !tool_effects[i]->before_plate(s, s->states[i], cmd, camera_s, error, error_size))
             return false;
-    if (s->plate)
-        host_renderer_footage(s->renderer, cmd, &s->target, now, frame_ago);
-    else
-        host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
-    return true;
+    return s->plate ? host_renderer_footage(s->renderer, cmd, &s->target, now, frame_ago, error, error_size)
+                    : host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago, error, error_size);
 }
 
 /* The cameras of a sub-frame, where its shutter closes and opens and a frame before, and the view that they make. */

@@ -150,7 +150,7 @@ bool shot_open_scene(shot *s, char *error, size_t error_size)
 {
     s->lighting = virga_default_lighting();
     if (s->options.draw && (!shot_create_target(s, error, error_size) ||
-                            !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size)))
+                            !host_renderer_create(&s->device, &s->renderer, error, error_size)))
         return false;
     shot_load_lights(s);
     return shot_load_meshes(s, error, error_size) && shot_load_environment(s, error, error_size) &&
