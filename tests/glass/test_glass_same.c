@@ -61,17 +61,19 @@ static float *paper_frame(bool height_map, virga_glass_blend blend, uint32_t com
     return copy;
 }
 
-/* Where nobody asks for heights the paper's style has gathers that leave them out. */
+/* Where nobody asks for heights the paper's style has gathers that leave them out. Each blend and each loop of
+ * compression is there once: one sums, the other works on the result. */
 static void the_paper_shows_the_same_with_heights_and_without(void **state)
 {
     (void)state;
-    for (uint32_t i = 0; i < 4; i++) {
-        const virga_glass_blend blend = i & 1 ? VIRGA_GLASS_BLEND_WEIGHTED : VIRGA_GLASS_BLEND_SUM;
-        float *with = paper_frame(true, blend, i & 2 ? 9 : 5, OWN_LANES),
-              *without = paper_frame(false, blend, i & 2 ? 9 : 5, OWN_LANES);
+    for (uint32_t i = 0; i < 2; i++) {
+        const virga_glass_blend blend = i ? VIRGA_GLASS_BLEND_WEIGHTED : VIRGA_GLASS_BLEND_SUM;
+        const uint32_t steps = i ? 9 : 5;
+        float *with = paper_frame(true, blend, steps, OWN_LANES),
+              *without = paper_frame(false, blend, steps, OWN_LANES);
         REQUIRE(sum_of_alpha(with, 0, WIDTH) > 1000);
         if (memcmp(with, without, 16ull * WIDTH * HEIGHT))
-            fail_msg("other bits with blend %d and %d steps", (int)blend, i & 2 ? 9 : 5);
+            fail_msg("other bits with blend %d and %u steps", (int)blend, steps);
         free(with);
         free(without);
     }
