@@ -83,13 +83,15 @@ static inline void fill_view(virga_view *view)
     view->color = some_image(VK_FORMAT_R16G16B16A16_SFLOAT);
 }
 
-#define CREATE(name)                                                                          \
-    do {                                                                                      \
-        const virga_##name##_def name##_def = virga_default_##name##_def();                   \
-        assert_int_equal(virga_##name##_create(a->context, &name##_def, &a->name), VIRGA_OK); \
+#define CREATE(name)                                                                              \
+    do {                                                                                          \
+        const virga_##name##_def name##_def = virga_default_##name##_def();                       \
+        if (!only || !strcmp(only, #name))                                                        \
+            assert_int_equal(virga_##name##_create(a->context, &name##_def, &a->name), VIRGA_OK); \
     } while (0)
 
-static inline void open_all_with(alone *a, void (*change)(virga_context_def *def))
+/* One effect, by its name, or all (NULL). */
+static inline void open_some(alone *a, const char *only, void (*change)(virga_context_def *def))
 {
     virga_target_def def = virga_default_target_def();
     def.kind = VIRGA_TARGET_DYNAMIC;
@@ -106,13 +108,14 @@ static inline void open_all_with(alone *a, void (*change)(virga_context_def *def
     CREATE(lens);
     CREATE(environment);
     assert_int_equal(virga_target_create(a->context, &def, &a->target), VIRGA_OK);
-    assert_int_equal(virga_ground_attach(a->ground, a->target), VIRGA_OK);
+    if (a->ground)
+        assert_int_equal(virga_ground_attach(a->ground, a->target), VIRGA_OK);
     a->errors = a->lines = 0;
 }
 
 static inline void open_all(alone *a)
 {
-    open_all_with(a, NULL);
+    open_some(a, NULL, NULL);
 }
 
 static inline void close_all(alone *a)

@@ -322,7 +322,7 @@ static void open_touched(alone *a)
     virga_water_def water = virga_default_water_def();
     virga_rain_def rain = virga_default_rain_def();
     const virga_fluid_block block = {.high_m = {0.2f, 0.2f, 0.2f}};
-    open_all_with(a, change_context);
+    open_some(a, NULL, change_context);
     virga_water_destroy(&a->water);
     virga_rain_destroy(&a->rain);
     water.max_width = water.max_height = 64;
@@ -369,7 +369,7 @@ static void so_does_a_scene(void **state)
     virga_scene *scene = NULL;
     uint32_t recorded = 0, drawn = 0;
     (void)state;
-    open_all_with(&a, change_context);
+    open_some(&a, NULL, change_context);
     def.with_ground = def.with_splash = true;
     def.panes = &pane;
     def.pane_count = 1;
@@ -404,7 +404,7 @@ static void without_lines_none_sets_their_width(void **state)
 {
     static alone a;
     (void)state;
-    open_all_with(&a, change_to_gpu);
+    open_some(&a, NULL, change_to_gpu);
     assert_int_equal(virga_rain_attach(a.rain, a.target), VIRGA_OK);
     begin_frame(&a);
     assert_int_equal(step_rain(&a), VIRGA_OK);
