@@ -199,6 +199,7 @@ static const virga_effect_pass passes[] = {
     PASS(reach),
     {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
     PASS(gather, .forms = LENS_GATHERS),
+    PASS(narrow, .forms = LENS_NARROWS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
@@ -216,6 +217,12 @@ static uint32_t pass_constant(const void *object)
 uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
 {
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
+}
+
+bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings)
+{
+    return lens->def.half_resolution && !lens->base.context->for_software &&
+           settings->max_radius_px <= 2 * VIRGA_LENS_FINE;
 }
 
 /* Draws of a whole picture or a part of it, or those in place. */
@@ -242,6 +249,8 @@ static bool form_used(const void *object, const void *given, const virga_effect_
         return settings->style == VIRGA_LENS_STYLE_PAPER;
     if (member == AT(combine) && lens->def.in_place)
         return false;
+    if (member == AT(narrow))
+        return lens_is_narrow(lens, settings);
     if (member != AT(tile) && member != AT(combine))
         return true;
     const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;

@@ -347,6 +347,17 @@ static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     }
 }
 
+/* Reaches, lists and the gather in one pass. */
+static void record_narrow(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t form = shaped | (is_linear(view) ? VIRGA_LENS_NARROW_LINEAR : 0);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.narrow");
+    virga_dispatch_2d(context, cmd, lens->narrow[form], view->tile_columns, view->tile_rows);
+    virga_indirect_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
 /* The fields: what is out of focus, for each texel. */
 static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
 {
@@ -359,6 +370,12 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     virga_dispatch_2d(context, cmd, lens->tile[lens_layer_form(lens, depth_layers(view))], view->tile_columns,
                       view->tile_rows);
     virga_compute_barrier(context, cmd);
+    if (!view->on_scene && lens_is_narrow(lens, &lens->settings)) {
+        virga_pass_end(context, cmd, scope);
+        record_narrow(lens, cmd, view, shaped);
+        record_layers(lens, cmd, view, shaped);
+        return;
+    }
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
     record_sample(lens, cmd, view);

@@ -36,6 +36,7 @@ enum {
     LENS_SAMPLES = 4,     /* by VIRGA_LENS_LINEAR and _ON_SCENE */
     LENS_GATHERS = 8,     /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
     LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
+    LENS_NARROWS = 4,     /* by VIRGA_LENS_SHAPED and _NARROW_LINEAR */
 };
 
 /* What is known of the newest prepare of each view besides virga_effect_view. */
@@ -63,7 +64,7 @@ struct virga_lens {
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[LENS_SAMPLES], *tile[VIRGA_LENS_LAYERS + 1], *reach,
-        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *layer_sample[VIRGA_LENS_LAYERS],
+        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *layer_sample[VIRGA_LENS_LAYERS],
         *layer[LENS_LAYER_FORMS], *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)],
         *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
@@ -79,6 +80,9 @@ void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, flo
 /* Which of the forms for 0 to VIRGA_LENS_LAYERS layers a pass has for so many: that one, but on GPUs from two layers on
  * the last one, see FOR_LAYERS in shaders/lens/layers.glsl. */
 uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
+
+/* Whether all discs are so narrow that one pass gathers them, see shaders/lens/narrow.comp. */
+bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings);
 
 /* ---- lens_draw.c */
 enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAW_TILES, LENS_DRAW_LAYERS, LENS_DRAWS };

@@ -41,7 +41,7 @@ float focus_inv_m() { return view.follow != 0u ? state.focus_inv_m : view.focus_
 // The signed radius of the circle of confusion, in texels of the work image.
 float circle(float inv_m)
 {
-    const float r = view.circle_px_m * (focus_inv_m() - inv_m) / float(STEP);
+    const float r = view.circle_px_m * (focus_inv_m() - inv_m) * (HALVED ? 0.5 : 1.0);
     return clamp(r, -view.max_radius, view.max_radius);
 }
 #endif
@@ -55,4 +55,9 @@ float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius
 vec4 finite(vec4 color)
 {
     return clamp(mix(color, vec4(0.0), isnan(color)), vec4(-65504.0), vec4(65504.0));
+}
+
+vec3 finite(vec3 color)
+{
+    return clamp(mix(color, vec3(0.0), isnan(color)), vec3(-65504.0), vec3(65504.0));
 }

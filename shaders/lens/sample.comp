@@ -1,7 +1,4 @@
-// sample.comp - the scene as samples: color and circle of confusion of each texel of the work image. At half resolution
-// a texel is the mean of those of its pixels that are about as near as the nearest one: a mean over an edge would be a
-// color that is nowhere, at a depth that is nowhere. In front of the focus it spreads as much light as it has such
-// pixels.
+// sample.comp - the scene as samples: color and circle of confusion of each texel of the work image, see sample.glsl.
 //
 // At half resolution it works on the list of tiles whose samples are read. Those of them that nothing reaches are in
 // focus, and lie beside others, which read their fields.
@@ -15,6 +12,7 @@
 #include "scene_color.glsl"
 #include "spread.glsl"
 #include "texels.glsl"
+#include "sample.glsl"
 #include "lists.glsl"
 #include "on_scene.glsl"
 
@@ -40,18 +38,9 @@ void main()
     const ivec2 texel = first + ivec2(gl_LocalInvocationID.xy);
     if (first.x < 0 || texel.x >= int(view.columns) || texel.y >= int(view.rows))
         return;
-    const texel_circles circles = circles_of(texel);
-    vec3 sum = vec3(0.0);
-    float before_focus = 0.0;
-    for (uint i = 0u; i < PIXELS; i++) {
-        sum += circles.weights[i] * scene_color(pixel_of(texel, i));
-        before_focus += circles.of_pixels[i] < -POINT ? 1.0 : 0.0;
-    }
-    const float radius = circles.radius;
-    const float share = HALVED && radius < -POINT ? before_focus / float(PIXELS) : 1.0;
-    const vec3 color = sum / circles.weight;
-    imageStore(samples, texel, vec4(color, radius));
-    imageStore(spreads, texel, vec4(share * spread(radius), radius, 0.0, 0.0));
+    const texel_sample own = sample_of(texel);
+    imageStore(samples, texel, vec4(own.color, own.radius));
+    imageStore(spreads, texel, vec4(own.share * spread(own.radius), own.radius, 0.0, 0.0));
     if (HALVED && is_sharp(reaches[tile_of(texel)].xy))
-        store_sharp(texel, color);
+        store_sharp(texel, own.color);
 }

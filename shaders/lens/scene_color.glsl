@@ -11,6 +11,6 @@ layout(set = 0, binding = 5) uniform sampler2D scene_picture;
 
 vec3 scene_color(ivec2 pixel)
 {
-    const vec3 stored = finite(texelFetch(scene_picture, pixel, 0)).rgb;
+    const vec3 stored = finite(texelFetch(scene_picture, pixel, 0).rgb);
     return SCENE_LINEAR ? stored : host_color(stored, view.color_given);
 }

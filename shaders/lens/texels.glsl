@@ -1,42 +1,52 @@
 // texels.glsl - the circles of confusion of a texel's pixels. A texel has that of the pixels that are about as near as
 // the nearest one. Two passes compute it and have to agree to the last bit, see tile.comp and sample.comp.
 // The includer has lens.glsl and pixels.glsl.
+#include "gpu/variants.glsl"
+
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 
-const uint PIXELS = STEP * STEP; // of a texel
-
 struct texel_circles {
-    float of_pixels[4];
-    float weights[4]; // of the pixels in the texel
-    float weight;     // their sum
-    float radius;     // of the texel
-    float farthest;   // of the pixels
+    vec4 of_pixels; // in rows; four times the same at full resolution
+    vec4 weights;   // of the pixels in the texel
+    float weight;   // their sum
+    float radius;   // of the texel
+    float farthest; // of the pixels
 };
 
-float circle_at(ivec2 pixel)
+vec4 circles(vec4 stored)
 {
-    return view.depth_given != 0u ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) : 0.0;
+    return vec4(circle(inverse_depth(stored.x)), circle(inverse_depth(stored.y)), circle(inverse_depth(stored.z)),
+                circle(inverse_depth(stored.w)));
 }
 
-texel_circles circles_of(ivec2 texel)
+float stored_at(ivec2 pixel) { return texelFetch(scene_depth, pixel, 0).r; }
+
+vec4 circles_at(ivec2 texel)
+{
+    if (view.depth_given == 0u)
+        return vec4(0.0);
+    const ivec2 low = pixel_of(texel, 0u), high = pixel_of(texel, 3u);
+    if (!HALVED)
+        return vec4(circle(inverse_depth(stored_at(low))));
+    if (FOR_GPU && high == low + 1) // all in the picture: four depths at once
+        return circles(textureGather(scene_depth, vec2(high) / vec2(textureSize(scene_depth, 0))).wzxy);
+    return circles(vec4(stored_at(low), stored_at(ivec2(high.x, low.y)), stored_at(ivec2(low.x, high.y)),
+                        stored_at(high)));
+}
+
+texel_circles circles_of(vec4 of_pixels)
 {
     texel_circles of;
-    float nearest = 1e9;
-    of.farthest = -1e9;
-    for (uint i = 0u; i < PIXELS; i++) {
-        of.of_pixels[i] = circle_at(pixel_of(texel, i));
-        nearest = min(nearest, of.of_pixels[i]);
-        of.farthest = max(of.farthest, of.of_pixels[i]);
-    }
-    const float per_radius = 1.0 / max(abs(nearest), 1.0);
-    precise float sum = 0.0, radius = 0.0;
-    for (uint i = 0u; i < PIXELS; i++) {
-        precise const float weight = max(1.0 - (of.of_pixels[i] - nearest) * per_radius, 0.0);
-        of.weights[i] = weight;
-        sum += weight;
-        radius += weight * of.of_pixels[i];
-    }
-    of.weight = sum;
-    of.radius = HALVED ? radius / sum : of.of_pixels[0];
+    const vec2 less = min(of_pixels.xy, of_pixels.zw), more = max(of_pixels.xy, of_pixels.zw);
+    const float nearest = min(less.x, less.y), per_radius = 1.0 / max(abs(nearest), 1.0);
+    of.of_pixels = of_pixels;
+    of.farthest = max(more.x, more.y);
+    precise const vec4 weights = max(1.0 - (of_pixels - nearest) * per_radius, 0.0);
+    precise const vec4 radii = weights * of_pixels;
+    precise const float weight = weights.x + weights.y + weights.z + weights.w;
+    precise const float radius = radii.x + radii.y + radii.z + radii.w;
+    of.weights = weights;
+    of.weight = weight;
+    of.radius = HALVED ? radius / weight : of_pixels.x;
     return of;
 }

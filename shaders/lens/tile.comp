@@ -27,6 +27,7 @@ layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[];
 
 // Words of floats that are not negative are in the same order as the floats.
 shared uint found[4]; // the three radii, and the levels
+shared int box[4];    // the first column and row that are out of focus, and the last ones
 
 // The circle of confusion of a layer that has a depth image; 0 where there is none of it.
 float layer_largest(uint layer, ivec2 texel)
@@ -44,22 +45,32 @@ void look_at_layer(uint layer, ivec2 texel, inout float largest_of_layers, inout
 
 vec3 largest_at(ivec2 texel, inout uint levels)
 {
-    const texel_circles circles = circles_of(texel);
-    const float radius = circles.radius;
+    const vec4 of_pixels = circles_at(texel);
     float layers = 0.0;
-    if (abs(radius) > POINT)
-        levels |= level_bit(radius < 0.0 ? 1u : 0u, level_of(radius));
+    vec2 scene = vec2(0.0);
+    if (any(greaterThan(abs(of_pixels), vec4(SHARP_REACH)))) { // else its mean is not more either
+        const texel_circles circles = circles_of(of_pixels);
+        const float radius = circles.radius;
+        if (abs(radius) > POINT)
+            levels |= level_bit(radius < 0.0 ? 1u : 0u, level_of(radius));
+        scene = max(vec2(-radius, circles.farthest), vec2(0.0)); // of a single pixel, too
+    }
 #define LOOK(layer) look_at_layer(layer, texel, layers, levels)
     FOR_LAYERS(LOOK)
-    return vec3(max(-radius, 0.0), max(circles.farthest, 0.0), layers); // of a single pixel, too
+    return vec3(scene, layers);
 }
 
 // ---- what it tells the tiles around it
 
 const float MARGIN = HALVED ? 2.5 : 1.0; // texels: half of one is the soft edge of a disc
 
-// The distance (texels) from a pixel of one tile to one of another along an axis.
-float gap(int tiles_apart) { return float(max(abs(tiles_apart) - 1, 0) * VIRGA_LENS_TILE + min(abs(tiles_apart), 1)); }
+// The distance (texels) along an axis from what is out of focus in this tile to another tile.
+float gap(int tiles_apart, int first, int last)
+{
+    if (tiles_apart == 0)
+        return 0.0;
+    return float(abs(tiles_apart) * VIRGA_LENS_TILE - (tiles_apart > 0 ? last : VIRGA_LENS_TILE - 1 - first));
+}
 
 // (half resolution) How far samples are read for what these circles reach: the diagonal of a tile beyond that for discs
 // from single texels, and for blocks (up to 8 texels wide, and 0.84 of that beyond them) the largest disc as well.
@@ -108,7 +119,7 @@ void touch_around(ivec2 own, vec3 radii, uint levels, uint lane)
     const int count = radii == vec3(0.0) ? 0 : side * side;
     for (int i = int(lane); i < count; i += 64) {
         const ivec2 offset = ivec2(i % side, i / side) - most, tile = own + offset;
-        const float apart = length(vec2(gap(offset.x), gap(offset.y)));
+        const float apart = length(vec2(gap(offset.x, box[0], box[2]), gap(offset.y, box[1], box[3])));
         if (tile == clamp(tile, ivec2(0), last))
             touch(tile, radii, levels, apart, apart <= sampled);
     }
@@ -133,15 +144,24 @@ void main()
 {
     const ivec2 tile = ivec2(gl_WorkGroupID.xy), first = tile * VIRGA_LENS_TILE;
     const uint lane = gl_LocalInvocationIndex;
-    if (lane < 4u)
+    if (lane < 4u) {
         found[lane] = 0u;
+        box[lane] = lane < 2u ? VIRGA_LENS_TILE : -1;
+    }
     barrier();
     vec3 largest = vec3(0.0);
+    ivec2 low = ivec2(VIRGA_LENS_TILE), high = ivec2(-1);
     uint levels = 0u;
     for (uint i = lane; i < VIRGA_LENS_TILE * VIRGA_LENS_TILE; i += 64u) {
         const ivec2 texel = first + ivec2(i % VIRGA_LENS_TILE, i / VIRGA_LENS_TILE);
         empty_near_field(texel);
-        largest = max(largest, largest_at(min(texel, ivec2(view.columns, view.rows) - 1), levels));
+        const ivec2 seen = min(texel, ivec2(view.columns, view.rows) - 1);
+        const vec3 radii = largest_at(seen, levels);
+        largest = max(largest, radii);
+        if (max(radii.x, radii.y) > SHARP_REACH || radii.z > 0.0) {
+            low = min(low, seen - first);
+            high = max(high, seen - first);
+        }
     }
     largest.xy *= vec2(greaterThan(largest.xy, vec2(SHARP_REACH)));
     if (largest != vec3(0.0)) {
@@ -149,6 +169,10 @@ void main()
         atomicMax(found[1], floatBitsToUint(largest.y));
         atomicMax(found[2], floatBitsToUint(largest.z));
         atomicOr(found[3], levels);
+        for (int axis = 0; axis < 2; axis++) {
+            atomicMin(box[axis], low[axis]);
+            atomicMax(box[2 + axis], high[axis]);
+        }
     }
     barrier();
     touch_around(tile, uintBitsToFloat(uvec3(found[0], found[1], found[2])), found[3], lane);

@@ -44,13 +44,14 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_BLOCK_FORMS     3
 
 /* What a pass is specialised for: bits of its specialisation constant; the low ones are of the pass itself. */
-#define VIRGA_LENS_HALVED   256 /* half resolution */
-#define VIRGA_LENS_IN_PLACE 512 /* draws blend over the target, see shaders/lens/overlay.frag */
-#define VIRGA_LENS_SHAPED   1   /* gather, layer: an aperture that is no disc, or cat's eye */
-#define VIRGA_LENS_ON_SCENE 2   /* sample, gather: a layer lies on the scene */
-#define VIRGA_LENS_DEPTHS   2   /* layer: it has a depth image */
-#define VIRGA_LENS_NO_NEAR  4   /* gather: nothing in front of the focus is out of focus */
-#define VIRGA_LENS_LINEAR   1   /* sample: the host's picture is linear light */
+#define VIRGA_LENS_HALVED        256 /* half resolution */
+#define VIRGA_LENS_IN_PLACE      512 /* draws blend over the target, see shaders/lens/overlay.frag */
+#define VIRGA_LENS_SHAPED        1   /* gather, layer: an aperture that is no disc, or cat's eye */
+#define VIRGA_LENS_ON_SCENE      2   /* sample, gather: a layer lies on the scene */
+#define VIRGA_LENS_DEPTHS        2   /* layer: it has a depth image */
+#define VIRGA_LENS_NO_NEAR       4   /* gather: nothing in front of the focus is out of focus */
+#define VIRGA_LENS_LINEAR        1   /* sample: the host's picture is linear light */
+#define VIRGA_LENS_NARROW_LINEAR 2   /* narrow: likewise */
 
 /* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
  * read. */

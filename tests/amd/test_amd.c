@@ -163,7 +163,11 @@ static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, u
     assert_int_equal(virga_lens_create(context, &def, &lens), VIRGA_OK);
     virga_lens_settings settings = virga_default_lens_settings();
     settings.style = VIRGA_LENS_STYLE_PAPER; /* the filters are the same for all */
-    if (!half_resolution)
+    if (in_place) {
+        settings = virga_default_lens_settings();
+        settings.max_radius_px = 16; /* discs so narrow have passes of their own */
+    }
+    if (!half_resolution || in_place)
         assert_int_equal(virga_lens_set(lens, &settings), VIRGA_OK);
     return lens;
 }

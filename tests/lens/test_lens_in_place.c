@@ -1,10 +1,10 @@
 /* test_lens_in_place.c - what is out of focus is blended over the picture that the target already holds: the same
  * picture as in an image of its own, and what is in focus is not touched. */
 #include "../host/dynamic_device.h"
-#include "lens_fixture.h"
+#include "lens_kinds.h"
 
-#define WIDTH  224
-#define HEIGHT 96
+#define WIDTH  LENS_KINDS_WIDTH
+#define HEIGHT LENS_KINDS_HEIGHT
 #define TILE   (2 * VIRGA_LENS_TILE) /* px */
 
 /* A host whose color image is what a lens reads, and then what it is drawn into. */
@@ -209,62 +209,14 @@ static void run(host *h)
     end(h, cmd);
 }
 
-/* ---- pictures */
-
-/* Values that half floats have, so that both ways begin with the same color. */
-static float gray(uint32_t *hash)
-{
-    return (float)(floor(lens_random(hash) * 64) + 1) / 64;
-}
-
-/* Noise and lamps: in focus on the left, then 8 px behind it, then up to 7 px in front of it, in small steps from there
- * to the focus at the bottom. */
-static void paint_all_kinds(const lens_picture *scene)
-{
-    uint32_t hash = 11;
-    for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < WIDTH; x++) {
-            const double near = 1 / (1 + 0.7 * (1 - (double)y / HEIGHT));
-            lens_paint(scene, x, y, lens_random(&hash) < 0.01 ? 20 : gray(&hash), x < 100 ? 1 : x < 150 ? 5 : near);
-        }
-}
-
-static void paint_layers(lens_fixture *f, uint32_t count)
-{
-    uint32_t hash = 5;
-    for (uint32_t i = 0; i < count; i++) {
-        const lens_picture *layer = lens_fixture_layer(f, i == 1 ? 0 : 0.9f);
-        for (uint32_t k = 0; k < WIDTH * HEIGHT; k++) {
-            const float share = lens_random(&hash) < 0.1 ? 0.75f : 0;
-            for (int c = 0; c < 4; c++)
-                layer->color[4 * k + (uint32_t)c] = share * (c == 3 ? 1 : 0.5f);
-            layer->depth[k] = (float)(0.5 + lens_random(&hash));
-        }
-    }
-}
-
-typedef struct kind_of_frame {
-    uint32_t layers;
-    float cats_eye, aperture_scale;
-    bool flat;
-} kind_of_frame;
-
-static void set_up(lens_fixture *f, const kind_of_frame *kind)
-{
-    paint_all_kinds(&f->scene);
-    paint_layers(f, kind->layers);
-    f->settings.cats_eye = kind->cats_eye;
-    f->settings.blades = kind->cats_eye > 0 ? 6 : 0;
-    f->settings.aperture_f /= kind->aperture_scale;
-    f->flat = kind->flat;
-}
+/* ---- tests */
 
 /* The picture of a lens with an image of its own. */
-static float *run_apart(const kind_of_frame *kind)
+static float *run_apart(const lens_kind *kind)
 {
     lens_fixture f;
     lens_fixture_open(&f, WIDTH, HEIGHT, true);
-    set_up(&f, kind);
+    lens_set_up(&f, kind);
     lens_fixture_run(&f);
     float *result = f.result;
     f.result = NULL;
@@ -272,19 +224,17 @@ static float *run_apart(const kind_of_frame *kind)
     return result;
 }
 
-/* ---- tests */
-
 static const virga_target_kind target_kinds[] = {VIRGA_TARGET_RENDER_PASS, VIRGA_TARGET_DYNAMIC};
 
 /* Half floats have 11 bits, and are truncated on some devices. What is beneath and what is blended over it are rounded
  * one after the other. */
 static void the_picture_is_that_of_an_image_of_its_own(void **state)
 {
-    static const kind_of_frame frames[] = {{.aperture_scale = 1},
-                                           {.aperture_scale = 2, .cats_eye = 0.5f},
-                                           {.aperture_scale = 1, .layers = 1},
-                                           {.aperture_scale = 1, .layers = 3},
-                                           {.aperture_scale = 1, .layers = 2, .flat = true}};
+    static const lens_kind frames[] = {{.aperture_scale = 1},
+                                       {.aperture_scale = 2, .cats_eye = 0.5f},
+                                       {.aperture_scale = 1, .layers = 1},
+                                       {.aperture_scale = 1, .layers = 3},
+                                       {.aperture_scale = 1, .layers = 2, .flat = true}};
     (void)state;
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
         float *apart = run_apart(&frames[i]);
@@ -293,7 +243,7 @@ static void the_picture_is_that_of_an_image_of_its_own(void **state)
             double worst = 0;
             if (!open_host(&h, target_kinds[k], WIDTH, HEIGHT, 1))
                 continue;
-            set_up(&h.f, &frames[i]);
+            lens_set_up(&h.f, &frames[i]);
             run(&h);
             for (size_t p = 0; p < 4u * WIDTH * HEIGHT; p++)
                 worst = fmax(worst, fabs((double)h.f.result[p] - (double)apart[p]) / (0.01 + fabs((double)apart[p])));
@@ -311,7 +261,7 @@ static void what_nothing_out_of_focus_reaches_is_not_touched(void **state)
     (void)state;
     host h;
     REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
-    paint_all_kinds(&h.f.scene);
+    lens_paint_kinds(&h.f.scene);
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < 2 * TILE; x++) {
             float *pixel = lens_pixel(&h.f.scene, x, y);
@@ -337,7 +287,7 @@ static void all_in_focus_and_all_out_of_focus(void **state)
     for (int frame = 0; frame < 4; frame++) {
         for (uint32_t y = 0; y < HEIGHT; y++)
             for (uint32_t x = 0; x < WIDTH; x++)
-                lens_paint(&h.f.scene, x, y, frame & 1 ? 0.5f : gray(&hash), frame & 1 ? frame == 1 ? 0 : 0.6 : 1);
+                lens_paint(&h.f.scene, x, y, frame & 1 ? 0.5f : lens_gray(&hash), frame & 1 ? frame == 1 ? 0 : 0.6 : 1);
         lens_paint(&h.f.scene, WIDTH / 2, HEIGHT / 2, 1000, frame & 1 ? frame == 1 ? 0 : 0.6 : 1);
         run(&h);
         for (uint32_t i = 0; i < WIDTH * HEIGHT * 4 && !(frame & 1); i++)

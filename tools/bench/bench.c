@@ -170,6 +170,12 @@ bool bench_begin(bench *b, VkCommandBuffer *cmd)
     return virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
 }
 
+void bench_know_image(const bench *b, const host_image *image)
+{
+    if (b->model)
+        counting_know_image(image->view, image->format, image->extent);
+}
+
 void bench_forget_model(const bench *b)
 {
     if (!b->model)

@@ -51,6 +51,9 @@ double bench_pass_ms(const bench *b, const char *name);
  * draws: there it is what the frame's timed passes leave. */
 double bench_draw_ms(const bench *b, const char *name, double frame_ms);
 
+/* With a model: an image of the bench's own that passes read counts with its bytes. */
+void bench_know_image(const bench *b, const host_image *image);
+
 /* With a model: forgets the passes so far, e.g. those of a first frame. */
 void bench_forget_model(const bench *b);
 

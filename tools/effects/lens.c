@@ -261,6 +261,10 @@ static bool open_pictures(bench *b, pictures *p)
     free(depth);
     free(layer);
     good = good && open_game(b, p);
+    const host_image *const read[] = {&p->color,     &p->layer,     &p->game,     &p->depths[0],
+                                      &p->depths[1], &p->depths[2], &p->depths[3]};
+    for (size_t i = 0; good && i < sizeof read / sizeof *read; i++)
+        bench_know_image(b, read[i]);
     return good || bench_fail(b, "pictures");
 }
 
@@ -332,14 +336,18 @@ static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens
     return good;
 }
 
+#define GAME_PX 7.2 /* radius of discs of the rows in place: 1 % of 720 */
+
 /* The focus is on the pane, 0.3 m away, so that what is farthest is blurred by the case's share. */
 static virga_lens_settings settings_of(const lens_case *row, const pictures *p)
 {
     virga_lens_settings settings = virga_default_lens_settings();
-    const double pixels = p->height, radius_px = row->radius_share * p->height;
+    const double pixels = p->height, radius_px = row->in_place ? GAME_PX : row->radius_share * p->height;
     settings.style = row->style;
     settings.focus_m = FOCUS_M;
     settings.max_radius_px = row->half_resolution ? 126 : 63;
+    if (row->in_place) /* a game knows how large its discs get */
+        settings.max_radius_px = 2 * (float)GAME_PX;
     /* r = A p / 2 (1 / s), A = focal / f-number, p = half the height times the cotangent, 2 */
     settings.aperture_f =
         radius_px > 0 ? (float)((double)settings.focal_m * pixels / (2 * radius_px * (double)settings.focus_m)) : 0;
@@ -391,7 +399,7 @@ static double model_bytes(const lens_case *row, const pictures *p)
     return COPY_BYTES + tiles + share * (sample + blocks + gather + fields);
 }
 
-static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "gather", "layers", "combine"};
+static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "gather", "narrow", "layers", "combine"};
 #define PASSES (sizeof pass_names / sizeof *pass_names)
 
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */

@@ -229,7 +229,7 @@ static void cost_of_texels(reader *r, const uint32_t *at, uint32_t op)
     if (type->opcode == OP_TYPE_SAMPLED_IMAGE)
         type = &r->ids[type->of];
     const bool of_buffer = type->count == IMAGE_BUFFER;
-    const float bytes = of_buffer ? 16 : TEXEL_BYTES;
+    const float bytes = of_buffer ? 16 : op == OP_IMAGE_GATHER ? 4 * TEXEL_BYTES : TEXEL_BYTES;
     b->waits = b->waits || !writes;
     if (!coordinate->own && !writes) {
         b->uniform += 1;
@@ -237,7 +237,7 @@ static void cost_of_texels(reader *r, const uint32_t *at, uint32_t op)
     }
     if (of_buffer)
         b->memory += 1;
-    else if (op >= OP_IMAGE_SAMPLE_FIRST && op <= OP_IMAGE_SAMPLE_LAST)
+    else if ((op >= OP_IMAGE_SAMPLE_FIRST && op <= OP_IMAGE_SAMPLE_LAST) || op == OP_IMAGE_GATHER)
         b->sample += 1;
     else
         b->fetch += 1;

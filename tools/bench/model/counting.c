@@ -86,6 +86,13 @@ static void keep_size_of_view(uint64_t view, uint64_t of)
         keep(&counting.resources, view, size, sizeof *size);
 }
 
+void counting_know_image(VkImageView view, VkFormat format, VkExtent3D extent)
+{
+    const double bytes = texel_bytes(format);
+    const resource_size size = {bytes * extent.width * extent.height * extent.depth, bytes};
+    keep(&counting.resources, (uint64_t)view, &size, sizeof size);
+}
+
 static VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo *info,
                                                     const VkAllocationCallbacks *with, VkBuffer *made)
 {

@@ -32,6 +32,9 @@ typedef struct counted_pass {
     float target_bytes;                  /* that a fragment reads and writes of its attachments */
 } counted_pass;
 
+/* An image of the host's, which passes read: its bytes count from now on. */
+void counting_know_image(VkImageView view, VkFormat format, VkExtent3D extent);
+
 /* Before the device is created. */
 void counting_prepare(void);
 

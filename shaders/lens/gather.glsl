@@ -1,0 +1,270 @@
+// gather.glsl - both fields of a texel, from samples that the includer has: sample_in and spread_in, which get the row
+// of a texel as row_of gives it, and the texel. It also says whether there is a near field (NEAR), whether a layer lies
+// on the scene (ON_SCENE), and with NARROW that no disc is wider than VIRGA_LENS_FINE texels, so that there are no
+// blocks.
+//
+// In front of the focus, a sample covers every texel in its circle: the near field has a coverage of its own, and lies
+// over the rest. Behind the focus, a sample is cut by what is nearer: it spreads no farther than the circle of the
+// texel that it would cover, so nothing bleeds over a sharp edge in front of it. The far field is divided by the sum
+// of its weights. Its fourth component is the near field's mean circle of confusion, which says what layers are in
+// front of it. Where the near field hides the far field, the samples around fill in what the near blur uncovers.
+//
+// At half resolution a texel in focus has no far field of its own to show, as its pixels are shown as they are. Pixels
+// behind it, at its edge, read between it and its neighbours. So it gets the far field that is behind it there, and
+// neither is a dark edge of it around what is in focus, nor a hole.
+//
+// A layer that lies on the scene, as haze does, is spread by the same weights.
+
+// The sum of the coverage of a disc on the grid, about: exact enough for weights that are divided by their sum.
+float disc_area(float radius) { return 3.14159265 * (radius * radius + 1.0 / 12.0) + 0.1; }
+
+// Behind what is out of focus in front, the scene is not known: it is filled in from around, mostly from the nearest
+// samples. Those that would reach this far by themselves count in full.
+float nearness(vec2 apart, float radius)
+{
+    const float share = dot(apart, apart) / max(radius * radius, 1.0);
+    return 1.0 / max(share * share * share, 1.0);
+}
+
+// Whether light of this radius is gathered from single texels, up to radii of `most`.
+#ifdef NARROW
+#define is_fine(radius, most) true
+#else
+bool is_fine(float radius, float most) { return radius <= most; }
+#endif
+
+// What is gathered of a field: the scene's color and weight, and the layer on it.
+struct field_sum {
+    vec4 scene, on;
+};
+
+// What a texel gathers. Each field has loops of its own, because few tiles have both.
+struct gatherer {
+    ivec2 texel;
+    float own;    // its circle of confusion
+    vec2 reach;   // the largest radius that reaches its tile, in front of the focus and behind it
+    uint levels;  // that have such light
+    int top;      // the highest of them
+    barrel cut;
+    bool behind;  // it is in front of the focus, and looks for what is behind it
+    bool beside;  // (half resolution) it is in focus, and looks for the far field of its neighbours
+};
+
+// Whether gather_far was done before.
+#ifdef NARROW
+bool is_known(gatherer to) { return !SHAPED && !to.behind; }
+#else
+bool is_known(gatherer to) { return false; }
+#endif
+
+bool has_level(gatherer to, uint group, uint level) { return (to.levels & level_bit(group, level)) != 0u; }
+
+// As `covers`, for a squared distance that is known already.
+float covered(ivec2 apart, float squared, float radius, barrel cut)
+{
+    return SHAPED ? covers(apart, radius, cut) : clamp(max(radius, 0.5) - sqrt(squared) + 0.5, 0.0, 1.0);
+}
+
+// In front of the focus, from samples. Wide discs come from blocks.
+field_sum gather_near(gatherer to, inout float circle_sum)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const float most = level_radius(0u), reach = min(to.reach.x, most);
+    const int rows = reach > POINT && has_level(to, 1u, 0u) ? disc_rows(reach) : -1;
+    for (int y = -rows; y <= rows; y++) {
+        const int columns = row_reach(reach, y), row = row_of(to.texel + ivec2(0, y));
+        const float down = float(y) * float(y);
+        for (int x = -columns; x <= columns; x++) {
+            const ivec2 apart = ivec2(x, y), from = to.texel + apart;
+            const vec4 source = sample_in(row, from);
+            // Seen from the source, this texel is at -apart, and the image is upside down.
+            const float weight = source.a < -POINT && is_fine(-source.a, most)
+                                     ? spread_in(row, from) *
+                                           covered(apart, float(x) * float(x) + down, -source.a, to.cut)
+                                     : 0.0;
+            sum.scene += weight * vec4(source.rgb, 1.0);
+            circle_sum += weight * source.a;
+            if (ON_SCENE)
+                sum.on += weight * on_scene_mean(inside(from));
+        }
+    }
+    return sum;
+}
+
+#ifndef NARROW
+// The same, from the blocks of a level.
+field_sum gather_near_blocks(gatherer to, uint level, inout float circle_sum)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const float reach = has_level(to, 1u, level) ? min(to.reach.x, level_radius(level)) : -1.0;
+    const seen_level at = see_level(level, to.texel, reach);
+    const ivec2 rows = rows_of(at);
+    for (int y = rows.x; y <= rows.y; y++) {
+        const ivec2 columns = columns_of(at, y);
+        for (int x = columns.x; x <= columns.y; x++) {
+            const block source = block_at(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+            const vec2 weights = block_covers(source, source.radius, to.cut) / BLOCKS_PER_DISC;
+            sum.scene += weights.xxxy * source.light;
+            circle_sum += weights.y * source.light.a * source.radius;
+            if (ON_SCENE)
+                sum.on += weights.y * block_on_scene(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+        }
+    }
+    return sum;
+}
+#endif
+
+// How far a texel looks for samples behind the focus, one by one. A texel behind the focus is covered by nothing wider
+// than its own circle; behind a near one it may be any.
+float far_reach(gatherer to)
+{
+    const float most = level_radius(0u);
+    if (to.behind)
+        return min(max(to.reach.y, -to.own), most);
+    if (level_of(to.own) == 0u && !to.beside)
+        return max(to.own, POINT);
+    return has_level(to, 0u, 0u) ? min(to.reach.y, most) : -1.0;
+}
+
+field_sum gather_far(gatherer to)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const float reach = far_reach(to);
+    // What is in blocks is not looked for here, but a texel that is nearly in focus cuts all to its own small circle.
+    const bool small = !to.behind && !to.beside && level_of(to.own) == 0u;
+    const float most = small ? view.max_radius : level_radius(0u), least = to.beside ? POINT : -POINT;
+    const float cut_to = to.beside ? view.max_radius : max(to.own, POINT);
+    const int rows = reach < 0.0 ? -1 : disc_rows(reach);
+    for (int y = -rows; y <= rows; y++) {
+        const int columns = row_reach(reach, y), row = row_of(to.texel + ivec2(0, y));
+        const float down = float(y) * float(y);
+        for (int x = -columns; x <= columns; x++) {
+            const ivec2 apart = ivec2(x, y), from = to.texel + apart;
+            const vec4 source = sample_in(row, from);
+            const float radius = NEAR && to.behind ? max(source.a, -to.own) : min(source.a, cut_to);
+            const float gathered = source.a >= least && is_fine(source.a, most) ? 1.0 : 0.0;
+            const float covers_it = covered(-apart, float(x) * float(x) + down, radius, to.cut);
+            float weight = gathered * covers_it / disc_area(max(radius, POINT));
+            if (NEAR && to.behind)
+                weight *= nearness(vec2(apart), source.a);
+            sum.scene += weight * vec4(source.rgb, 1.0);
+            if (ON_SCENE)
+                sum.on += weight * on_scene_mean(inside(from));
+        }
+    }
+    return sum;
+}
+
+#ifndef NARROW
+// How far it looks in the blocks of a level.
+float far_block_reach(gatherer to, uint level)
+{
+    const float most = level_radius(level), fill = max(to.reach.y, -to.own);
+    if (to.behind)
+        return level_of(fill) == level ? fill : -1.0;
+    if (!has_level(to, 0u, level) || (level_of(to.own) == 0u && !to.beside))
+        return -1.0;
+    return min(min(to.reach.y, most), to.beside ? most : to.own);
+}
+
+field_sum gather_far_blocks(gatherer to, uint level)
+{
+    field_sum sum = field_sum(vec4(0.0), vec4(0.0));
+    const uint kind = to.behind ? VIRGA_LENS_BLOCKS_ALL : VIRGA_LENS_BLOCKS_FAR;
+    const float cut_to = to.beside ? view.max_radius : to.own;
+    const seen_level at = see_level(level, to.texel, far_block_reach(to, level));
+    const ivec2 rows = rows_of(at);
+    for (int y = rows.x; y <= rows.y; y++) {
+        const ivec2 columns = columns_of(at, y);
+        for (int x = columns.x; x <= columns.y; x++) {
+            const block source = block_at(at, ivec2(x, y), kind);
+            const float radius = NEAR && to.behind ? max(source.radius, -to.own) : min(source.radius, cut_to);
+            vec2 weights = block_covers(source, radius, to.cut) /
+                           (3.14159265 * vec2(soft_area(radius, source.softs.x), soft_area(radius, source.softs.y)));
+            // What is near is filled in from single texels, so that something thin before a lamp does not dim it.
+            if (NEAR && to.behind) {
+                const float apart = max(length(source.weight_apart), level_radius(0u));
+                weights *= nearness(vec2(apart, 0.0), source.radius);
+            }
+            sum.scene += weights.xxxy * source.light;
+            if (ON_SCENE)
+                sum.on += weights.y * block_on_scene(at, ivec2(x, y), kind);
+        }
+    }
+    return sum;
+}
+#endif
+
+field_sum plus(field_sum a, field_sum b) { return field_sum(a.scene + b.scene, a.on + b.on); }
+
+// The far field of a texel, with weights. `fine`: from single texels.
+field_sum scene_behind(gatherer to, vec3 own_color, field_sum fine)
+{
+    field_sum sum = fine;
+#ifndef NARROW
+    for (int level = 1; level <= to.top; level++) {
+        const field_sum wide = gather_far_blocks(to, uint(level));
+        const float texels = float(1 << 2 * level); // a block keeps means
+        sum = plus(sum, field_sum(texels * wide.scene, texels * wide.on));
+    }
+#endif
+    if (!to.beside)
+        return sum;
+    // From half a pixel on, its pixels are mixed with its own field, see compose.glsl.
+    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * POINT, POINT, abs(to.own)) : 1.0;
+    const float per_weight = sum.scene.a > 0.0 ? 1.0 / sum.scene.a : 0.0;
+    sum.scene = mix(sum.scene * per_weight, vec4(own_color, 1.0), share);
+    if (ON_SCENE)
+        sum.on = mix(sum.on * per_weight, on_scene_mean(to.texel), share);
+    return sum;
+}
+
+// The near field, and its mean circle of confusion.
+field_sum scene_before(gatherer to, out float circle)
+{
+    float circle_sum = 0.0;
+    field_sum sum = gather_near(to, circle_sum);
+#ifndef NARROW
+    for (int level = 1; level <= to.top; level++)
+        sum = plus(sum, gather_near_blocks(to, uint(level), circle_sum));
+#endif
+    circle = sum.scene.a > 0.0 ? circle_sum / sum.scene.a : 0.0;
+    return sum;
+}
+
+void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
+{
+    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), far);
+    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
+    if (ON_SCENE)
+        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
+}
+
+// Both fields of a texel, and the layer on the scene. `reach`: the largest radius that reaches its tile, in front of
+// the focus and behind it. `levels`: that have such light. `known`: what gather_far finds, if is_known.
+void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
+{
+    const vec4 own = sample_in(row_of(texel), texel);
+    if (max(reach.x, reach.y) <= POINT) {
+        store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));
+        return;
+    }
+    const gatherer to = gatherer(texel, own.a, reach, levels, top_level(levels | levels >> 4), barrel_at(texel),
+                                 own.a < -POINT, HALVED && abs(own.a) <= POINT);
+    float near_circle = 0.0;
+    field_sum near = field_sum(vec4(0.0), vec4(0.0));
+    if (NEAR)
+        near = scene_before(to, near_circle);
+    field_sum fine = field_sum(known, vec4(0.0));
+    if (!is_known(to))
+        fine = gather_far(to);
+    const field_sum far = scene_behind(to, own.rgb, fine);
+    // Where there is nothing behind, or more than one near sample a texel, the near field is all.
+    if (near.scene.a > 1.0 || far.scene.a == 0.0) {
+        near.on /= near.scene.a;
+        near.scene /= near.scene.a;
+    }
+    const float per_weight = far.scene.a > 0.0 ? 1.0 / far.scene.a : 0.0;
+    store(texel, vec4(far.scene.rgb * per_weight, near_circle), near.scene,
+          near.on + (1.0 - near.scene.a) * far.on * per_weight);
+}
