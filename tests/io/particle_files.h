@@ -25,6 +25,7 @@ typedef enum particle_file_kind {
     FILE_VTK_ARRAYS_BINARY,
     FILE_VTK_5_BINARY,
     FILE_BGEO,
+    FILE_BGEO_FULL,
     FILE_KINDS,
 } particle_file_kind;
 
@@ -151,6 +152,13 @@ static inline void put_vtk(FILE *to, particle_file_kind kind, uint32_t count)
     free(rows);
 }
 
+static inline void put_bgeo_header(FILE *to, const double numbers[9])
+{
+    fputs("BgeoV", to);
+    for (int i = 0; i < 9; i++)
+        put_number(to, FILE_BGEO, numbers[i], 4, false);
+}
+
 static inline void put_bgeo_attribute(FILE *to, const char *name, int components, int type)
 {
     put_number(to, FILE_BGEO, (double)strlen(name), 2, false);
@@ -169,21 +177,59 @@ static inline void put_bgeo_attribute(FILE *to, const char *name, int components
     }
 }
 
-static inline void put_bgeo(FILE *to, uint32_t count)
+/* What Houdini writes behind the points: attributes of vertices and of primitives, the primitives (a polygon, and all
+ * points as a particle system), attributes of the whole, groups of points and of primitives, and "extra" that is empty.
+ * Indices of less than 65536 points have 16 bits. */
+static inline void put_bgeo_rest(FILE *to, uint32_t count)
 {
-    const double header[] = {5, count, 0, 0, 0, 4, 0, 0, 0};
-    fputs("BgeoV", to);
-    for (int i = 0; i < 9; i++)
-        put_number(to, FILE_BGEO, header[i], 4, false);
+    enum { POLYGON = 1, PARTICLES = 0x8000 };
+    put_bgeo_attribute(to, "uv", 3, 0);
+    put_bgeo_attribute(to, "generator", 1, 4);
+    for (int primitive = 0; primitive < 2; primitive++) {
+        const uint32_t vertices = primitive ? count : count < 3 ? count : 3;
+        put_number(to, FILE_BGEO, primitive ? PARTICLES : POLYGON, 4, false);
+        put_number(to, FILE_BGEO, vertices, 4, false);
+        fputs(primitive ? "" : "<", to); /* closed */
+        for (uint32_t i = 0; i < vertices; i++) {
+            put_number(to, FILE_BGEO, i, 2, false);
+            for (int k = 0; k < 3; k++)
+                put_number(to, FILE_BGEO, 0.25 * k, 4, true);
+        }
+        put_number(to, FILE_BGEO, primitive, 4, false);
+    }
+    put_bgeo_attribute(to, "time", 1, 0);
+    put_number(to, FILE_BGEO, 1.5, 4, true);
+    for (int group = 0; group < 2; group++) {
+        put_number(to, FILE_BGEO, 4, 2, false);
+        fputs(group ? "mesh" : "drop", to);
+        put_number(to, FILE_BGEO, group ? 1 : 0, 4, false); /* ordered or not */
+        put_number(to, FILE_BGEO, group ? 2 : count, 4, false);
+        for (uint32_t i = 0; i < (group ? 2 : count + 31) / 32 + 1; i++)
+            put_number(to, FILE_BGEO, 0x55555555, 4, false);
+    }
+}
+
+static inline void put_bgeo(FILE *to, particle_file_kind kind, uint32_t count)
+{
+    const bool full = kind == FILE_BGEO_FULL;
+    const double plain[] = {5, count, 0, 0, 0, 4, 0, 0, 0}, all[] = {5, count, 2, 1, 1, 5, 1, 1, 1};
+    put_bgeo_header(to, full ? all : plain);
+    if (full)
+        put_bgeo_attribute(to, "Cd", 3, 0);
     put_bgeo_attribute(to, "id", 1, 1);
     put_bgeo_attribute(to, "group", 1, 4);
     put_bgeo_attribute(to, "v", 3, 5);
     put_bgeo_attribute(to, "density", 1, 0);
     for (uint32_t i = 0; i < count; i++) {
-        const double row[] = {i, 0.5 * i, -1.25, 1, 0, 0, 0.25 * i, -2, 3, 990.0 + i};
-        for (int k = 0; k < 10; k++)
-            put_number(to, FILE_BGEO, k == 4 ? 1000.0 - i : row[k], 4, k != 4 && k != 5);
+        const double row[] = {i, 0.5 * i, -1.25, 1, 1000.0 - i, 0, 0.25 * i, -2, 3, 990.0 + i};
+        for (int k = 0; k < 10; k++) {
+            for (int color = 0; full && k == 4 && color < 3; color++)
+                put_number(to, FILE_BGEO, 0.5, 4, true);
+            put_number(to, FILE_BGEO, row[k], 4, k != 4 && k != 5);
+        }
     }
+    if (full)
+        put_bgeo_rest(to, count);
     put_number(to, FILE_BGEO, 0x00ff, 2, false);
 }
 
@@ -193,8 +239,8 @@ static inline particle_file make_particle_file(particle_file_kind kind, uint32_t
     FILE *to = open_memstream(&file.data, &file.size);
     if (kind <= FILE_PLY_BIG)
         put_ply(to, kind, count);
-    else if (kind == FILE_BGEO)
-        put_bgeo(to, count);
+    else if (kind >= FILE_BGEO)
+        put_bgeo(to, kind, count);
     else
         put_vtk(to, kind, count);
     fclose(to);

@@ -52,7 +52,7 @@ static void each_format_gives_the_same_particles(void **state)
 static void formats_are_known_by_their_first_bytes(void **state)
 {
     (void)state;
-    static const char *const names[] = {"PLY", "PLY", "PLY", "VTK", "VTK", "VTK", "VTK", "VTK", "bgeo"};
+    static const char *const names[] = {"PLY", "PLY", "PLY", "VTK", "VTK", "VTK", "VTK", "VTK", "bgeo", "bgeo"};
     for (int kind = 0; kind < FILE_KINDS; kind++) {
         particle_file file = make_particle_file((particle_file_kind)kind, 3);
         put_file(in_folder("named.yaml"), file.data, file.size);
@@ -62,6 +62,38 @@ static void formats_are_known_by_their_first_bytes(void **state)
     put_file(in_folder("named.ply"), "virga: 1\n", 9);
     assert_null(particles_format(in_folder("named.ply")));
     assert_null(particles_format(in_folder("none.ply")));
+}
+
+/* 16 bits have no room for the length of such a text, which is in the 32 behind them. */
+static void long_texts_of_bgeo_are_skipped(void **state)
+{
+    (void)state;
+    enum { LENGTH = 70000 };
+    particle_file file = {0};
+    particles read;
+    FILE *to = open_memstream(&file.data, &file.size);
+    put_bgeo_header(to, (const double[9]){5, 1, 0, 0, 0, 2, 0, 0, 0});
+    put_number(to, FILE_BGEO, 4, 2, false);
+    fputs("note", to);
+    put_number(to, FILE_BGEO, 1, 2, false);
+    put_number(to, FILE_BGEO, 4, 4, false); /* an indexed text */
+    put_number(to, FILE_BGEO, 1, 4, false);
+    put_number(to, FILE_BGEO, 0xffff, 2, false);
+    put_number(to, FILE_BGEO, LENGTH, 4, false);
+    for (int i = 0; i < LENGTH; i++)
+        fputc('a' + i % 26, to);
+    put_bgeo_attribute(to, "density", 1, 0);
+    for (int k = 0; k < 6; k++)
+        put_number(to, FILE_BGEO, k + 1, 4, true);
+    fclose(to);
+    put_file(in_folder("long.bgeo"), file.data, file.size);
+    must_read(in_folder("long.bgeo"), &read);
+    assert_int_equal(read.count, 1);
+    assert_true(read.position[0][0] == 1 && read.position[0][2] == 3);
+    assert_non_null(read.density);
+    assert_true(read.density[0] == 6);
+    particles_free(&read);
+    free(file.data);
 }
 
 static void read_text(const char *text, particles *read)
@@ -170,6 +202,8 @@ static void wrong_files_are_one_line(void **state)
         {TEXT("BgeoV\0\0\0\6" ZERO ZERO ZERO ZERO ZERO ZERO ZERO ZERO), "byte 37:", "version 6, expected 5"},
         {TEXT(GEO_5 "\377\0\0\0" ZERO ZERO ZERO ZERO ZERO ZERO ZERO), "byte 37:", "4278190080 particles"},
         {TEXT(GEO_5 ZERO ZERO ZERO ZERO "\0\0\0\1" ZERO ZERO ZERO "\0\1P\0\1\0\0\0\3"), "byte 46:", "'P' of type 3"},
+        {TEXT(GEO_5 ZERO ZERO ZERO ZERO "\0\0\0\1" ZERO ZERO ZERO "\0\4note\0\1\0\0\0\2"),
+         "byte 49:", "attribute 'note' of type 2, expected 0"},
         {TEXT("\x1f\x8b\x08\0\0\0\0\0\0\3abcdefgh"), "byte", "gzip"},
     };
     for (size_t i = 0; i < COUNT(files); i++) {
@@ -355,6 +389,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST_IN_FOLDER(each_format_gives_the_same_particles),
         TEST_IN_FOLDER(formats_are_known_by_their_first_bytes),
+        TEST_IN_FOLDER(long_texts_of_bgeo_are_skipped),
         TEST_IN_FOLDER(attributes_may_be_missing),
         TEST_IN_FOLDER(names_of_attributes_vary),
         TEST_IN_FOLDER(positions_that_are_no_numbers_are_kept),

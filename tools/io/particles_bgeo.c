@@ -7,7 +7,9 @@
  *     for each component; an indexed text has a list of texts in place of the default
  *     each point: x, y, z, w, then the attributes, 4 bytes for each component
  *
- * What follows is not needed. */
+ * A length of -1 stands for one of 32 bits behind it. What follows the points is not read: attributes of vertices and of
+ * primitives, the primitives, attributes of the whole, and groups. "Documentation on the Public Domain Geometry Library
+ * (GPD) - Version 5", which comes with Houdini, has all of it. */
 #include "particle_reader.h"
 
 #include <stdlib.h>
@@ -32,10 +34,15 @@ static bool read_word(particle_stream *stream, particle_scalar type, uint32_t *v
     return bytes;
 }
 
+static bool read_length(particle_stream *stream, uint32_t *length)
+{
+    return read_word(stream, SCALAR_U16, length) && (*length != 0xffff || read_word(stream, SCALAR_U32, length));
+}
+
 static bool read_name(particle_stream *stream, char name[MAX_NAME + 1])
 {
     uint32_t length;
-    if (!read_word(stream, SCALAR_U16, &length))
+    if (!read_length(stream, &length))
         return false;
     if (length > MAX_NAME)
         return stream_fail(stream, "an attribute's name of %u bytes, expected at most %d", length, MAX_NAME);
@@ -52,7 +59,7 @@ static bool skip_texts(particle_stream *stream)
     if (!read_word(stream, SCALAR_U32, &count))
         return false;
     for (uint32_t i = 0; i < count; i++)
-        if (!read_word(stream, SCALAR_U16, &length) || !stream_skip(stream, length, 1))
+        if (!read_length(stream, &length) || !stream_skip(stream, length, 1))
             return false;
     return true;
 }
