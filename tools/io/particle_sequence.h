@@ -6,7 +6,8 @@
  * has moves with its velocity, and fades.
  *
  * Fading is the share of a particle's volume that counts. It goes from 0 to 1 along 3 s^2 - 2 s^3, so neither it nor
- * its rate of change jumps. Before the first file and after the last one the particles stand still. A particle whose
+ * its rate of change jumps. It takes the time between two files: with a file for each frame a particle is there in one
+ * frame and not in the next. Before the first file and after the last one the particles stand still. A particle whose
  * position is not finite is not there. */
 #ifndef VIRGA_IO_PARTICLE_SEQUENCE_H
 #define VIRGA_IO_PARTICLE_SEQUENCE_H
