@@ -124,7 +124,7 @@ struct virga_fluid;
 
 /* Returns the bytes of a state: the sum of what the effects hold, most of it in proportion to their pools. A scene of
  * rain alone has some megabytes; its ground has 80 bytes for each cell and 24 for each cell of the cache; water 2.2 KB
- * for each of max_spray and 48 bytes for each of max_foam; a fluid 40 bytes for each of max_particles. It stays the
+ * for each of max_spray and 64 bytes for each of max_foam; a fluid 40 bytes for each of max_particles. It stays the
  * same for the life of the object. Returns 0 for NULL. */
 VIRGA_API VkDeviceSize virga_scene_state_bytes(const struct virga_scene *scene);
 VIRGA_API VkDeviceSize virga_rain_state_bytes(const struct virga_rain *rain);

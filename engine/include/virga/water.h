@@ -72,7 +72,7 @@ typedef struct virga_water_def {
      * statistics say how many. Default 65536. */
     uint32_t max_droplets;
 
-    /* [0; 1048576] particles of foam: 48 bytes each, 32 more for each view, and 36 for each of max_particles. While all
+    /* [0; 1048576] particles of foam: 64 bytes each, 32 more for each view, and 36 for each of max_particles. While all
      * are in use no new ones are made, and the statistics say how many are missing. 0: no foam. Default 65536. */
     uint32_t max_foam;
 

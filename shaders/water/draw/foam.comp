@@ -88,7 +88,7 @@ void main()
     if (index >= state.foam)
         return;
     const virga_foam_gpu own = foam[slots[index]];
-    const vec3 p = to_vec(own.position) + to_vec(view.origin_offset) - look.foam_late_s * to_vec(own.velocity);
+    const vec3 p = to_vec(own.position) + to_vec(view.origin_offset) - look.foam_late_s * to_vec(own.moved);
     const vec4 clip = project(to_mat(view.clip_from_rel), p);
     foam_splats[FOAM_TEXELS * index] = floatBitsToUint(clip);
     float radius = own.radius / (view.pixel_angle * clip.w), covered = coverage_of_kind(own);
@@ -108,7 +108,7 @@ void main()
     // What the water swallows is lost from the cover, too: it lies over the water's own light.
     const vec3 seen = light * cover.through;
     const float left = max(cover.through.r, max(cover.through.g, cover.through.b));
-    const vec4 before = project(to_mat(view.previous_clip_from_rel), p - to_vec(own.velocity) * view.frame_interval_s);
+    const vec4 before = project(to_mat(view.previous_clip_from_rel), p - to_vec(own.moved) * view.frame_interval_s);
     const vec2 motion = motion_px(clip, before);
     foam_splats[FOAM_TEXELS * index + 1u] =
         uvec4(floatBitsToUint(radius), halves(seen.r / max(left, 1e-4), seen.g / max(left, 1e-4)),

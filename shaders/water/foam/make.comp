@@ -38,6 +38,8 @@ virga_foam_gpu made(vec4 particle, vec3 velocity, float met, float potential, ui
     own.velocity = float[3](v.x, v.y, v.z);
     own.radius = frame.foam_radius * (0.5 + random(id, 4u) * random(id, 5u));
     own.life_s = mix(frame.foam_life_s[0], frame.foam_life_s[1], potential) * (0.75 + 0.5 * random(id, 6u));
+    own.moved = own.velocity;
+    own.pad = 0.0;
     own.age_s = 0.0;
     own.id = id;
     return own;

@@ -107,6 +107,8 @@ void move(inout virga_foam_gpu own, float gap_s)
     }
     own.position = float[3](position.x, position.y, position.z);
     own.velocity = float[3](velocity.x, velocity.y, velocity.z);
+    const vec3 moved = gap_s > 0.0 ? (position - from) / gap_s : velocity;
+    own.moved = float[3](moved.x, moved.y, moved.z);
 }
 
 void main()
