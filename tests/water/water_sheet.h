@@ -37,18 +37,13 @@ static inline void sheet_position(uint32_t i, float position[3])
     position[2] = (float)(SHEET_STEP_M * (i / SHEET_ACROSS) - 0.5 * SHEET_STEP_M * SHEET_ACROSS);
 }
 
-/* For shot.after_step: replaces the surfels of the step by a sheet, which the step's own passes could only make with
- * errors of their own. */
-static inline void sheet_record(shot *of, VkCommandBuffer cmd)
+/* The first `count` surfels of shot.extra become those of the step, whose own passes could make them only with errors of
+ * their own. */
+static inline void surfels_replace(shot *of, VkCommandBuffer cmd, uint32_t count)
 {
-    const uint32_t count = SHEET_ACROSS * SHEET_ACROSS;
-    virga_surfel_gpu *surfels = of->extra.mapped;
-    for (uint32_t i = 0; i < count; i++) {
-        surfels[i] = (virga_surfel_gpu){.normal = 0x7fff0000 /* +Y */, .radius = (float)(1.2 * SHEET_STEP_M)};
-        sheet_position(i, surfels[i].position);
-    }
     const uint32_t head[5] = {count, count, (count + VIRGA_WATER_LANES - 1) / VIRGA_WATER_LANES, 1, 1}, none = count;
-    const VkBufferCopy copy = {0, 0, count * sizeof *surfels};
+    const VkBufferCopy copy = {0, 0, count * sizeof(virga_surfel_gpu)};
+    REQUIRE(copy.size <= of->extra.size && count <= of->f.water->def.max_surfels);
     effect_fixture_transfers(cmd);
     vkCmdCopyBuffer(cmd, of->extra.buffer, of->f.water->surfels->buffer, 1, &copy);
     vkCmdUpdateBuffer(cmd, of->f.water->state->buffer, offsetof(virga_water_state_gpu, surfels), sizeof head, head);
@@ -57,6 +52,18 @@ static inline void sheet_record(shot *of, VkCommandBuffer cmd)
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                         VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+/* For shot.after_step: the surface is a sheet. */
+static inline void sheet_record(shot *of, VkCommandBuffer cmd)
+{
+    const uint32_t count = SHEET_ACROSS * SHEET_ACROSS;
+    virga_surfel_gpu *surfels = of->extra.mapped;
+    for (uint32_t i = 0; i < count; i++) {
+        surfels[i] = (virga_surfel_gpu){.normal = 0x7fff0000 /* +Y */, .radius = (float)(1.2 * SHEET_STEP_M)};
+        sheet_position(i, surfels[i].position);
+    }
+    surfels_replace(of, cmd, count);
 }
 
 /* Fresnel's equations by angles, not as the shader has them. */

@@ -46,7 +46,7 @@ vec3 seen_normal(vec3 normal, vec3 incident)
 #define THIN_PX 1.5 // surfels of this radius and below blur the border by themselves
 #define WIDE_PX 3.0
 #define MIN_SLOPE 0.02
-#define MAX_SLOPE 0.15 // a steeper change is noise of few surfels
+#define MAX_SLOPE 0.3 // a steeper change is noise of few surfels; at 0.4 it shows as holes
 
 // How much of the pixel is covered. The sum of weights is about 1 inside the water, and falls to 0 at its border. For
 // large surfels it falls over many pixels; where it is 1/2, the border is drawn as wide as a pixel. For small ones it
