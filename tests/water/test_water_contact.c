@@ -7,6 +7,17 @@
 
 static shot s;
 
+/* All of it is turned around y. */
+static double turned_rad;
+
+static void turn(const double from[3], double by, double to[3])
+{
+    const double x = from[0], z = from[2];
+    to[0] = x * cos(by) + z * sin(by);
+    to[1] = from[1];
+    to[2] = z * cos(by) - x * sin(by);
+}
+
 /* A floor at y = 0, whose red changes along x, and a black wall. */
 #define SLOPE 2.0 /* of red per metre */
 
@@ -19,6 +30,17 @@ static double room(const shot *of, const double eye[3], const double direction[3
     if (floor < wall)
         rgb[0] = 1 + SLOPE * (eye[0] + floor * direction[0]), rgb[1] = 1;
     return fmin(floor, wall);
+}
+
+/* The wall is a pane of glass, which a host has drawn into its depth: the floor is seen through it. */
+static double room_with_pane(const shot *of, const double eye[3], const double direction[3], double rgb[3])
+{
+    double at[3], along[3], black[3];
+    turn(eye, -turned_rad, at);
+    turn(direction, -turned_rad, along);
+    const double floor = along[1] < 0 ? -at[1] / along[1] : INFINITY;
+    rgb[0] = rgb[1] = rgb[2] = isfinite(floor) ? 0.4 : 1.2;
+    return room(of, at, along, black);
 }
 
 /* Where a point of the world is in the picture (px). */
@@ -73,25 +95,27 @@ static double edge_of_column(uint32_t x)
 #define CAPILLARY_M 0.0027 /* of contact.glsl */
 #define CONTACT_RAD 0.35
 
-static void water_meets_a_wall_at_the_height_of_a_meniscus(void **state)
+/* The picture's edge of the water at the wall against that of the meniscus; its pictures have this name. */
+static void check_meniscus(double height, const char *name)
 {
-    (void)state;
     static const double eyes[3][3] = {{0.35, 0.5, 0.1}, {0.2, 0.45, 0.25}, {0.6, 0.62, -0.1}};
-    fill_pool();
-    const double height = surface_height();
     for (int i = 0; i < 3; i++) {
-        shot_aim(&s, eyes[i], (const double[3]){WALL_X, height, 0});
+        double eye[3], to[3], worst = 0;
+        char picture[32];
+        turn(eyes[i], turned_rad, eye);
+        turn((const double[3]){WALL_X, height, 0}, turned_rad, to);
+        shot_aim(&s, eye, to);
         shot_draw(&s);
-        shot_save(&s, (const char *[3]){"wall0", "wall1", "wall2"}[i]);
-        double worst = 0;
+        snprintf(picture, sizeof picture, "%s%d", name, i);
+        shot_save(&s, picture);
         for (int k = -5; k <= 5; k++) {
-            double at[3] = {WALL_X, height, 0.015 * k}, flat[2], up[2];
-            const double *eye = eyes[i];
+            double at[3], flat[2], up[2];
+            turn((const double[3]){WALL_X, height, 0.015 * k}, turned_rad, at);
             const double away = sqrt(pow(eye[0] - at[0], 2) + pow(eye[1] - at[1], 2) + pow(at[2] - eye[2], 2));
             const double pixel_m = away * 2 * tan(FOV_DEG * M_PI / 360) / SIDE;
-            const double turn = (M_PI / 2 - CONTACT_RAD) * CAPILLARY_M / (CAPILLARY_M + pixel_m);
+            const double angle = (M_PI / 2 - CONTACT_RAD) * CAPILLARY_M / (CAPILLARY_M + pixel_m);
             pixel_of(at, flat);
-            at[1] += 2 * CAPILLARY_M * sin(0.5 * turn);
+            at[1] += 2 * CAPILLARY_M * sin(0.5 * angle);
             pixel_of(at, up);
             /* Along the column of that pixel. */
             const double edge = edge_of_column((uint32_t)up[0]);
@@ -104,6 +128,33 @@ static void water_meets_a_wall_at_the_height_of_a_meniscus(void **state)
         printf("off by up to %.2f px\n", worst);
         REQUIRE(worst < 1);
     }
+}
+
+static void water_meets_a_wall_at_the_height_of_a_meniscus(void **state)
+{
+    (void)state;
+    fill_pool();
+    check_meniscus(surface_height(), "wall");
+}
+
+static void water_meets_a_pane_in_the_depth_at_the_height_of_a_meniscus(void **state)
+{
+    (void)state;
+    fill_pool();
+    const double height = surface_height();
+    turned_rad = 0.5;
+    s.scene = room_with_pane;
+    for (uint32_t i = 0; i < s.f.count; i++) {
+        const float *p = s.f.particles[i].position;
+        const double at[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        double to[3];
+        turn(at, turned_rad, to);
+        for (int axis = 0; axis < 3; axis++)
+            s.f.particles[i].position[axis] = (float)to[axis];
+    }
+    check_meniscus(height, "pane");
+    turned_rad = 0;
+    s.scene = room;
 }
 
 /* Where on the floor the picture of a pixel comes from (x). */
@@ -200,6 +251,7 @@ int main(void)
     s.scene = room;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_meets_a_wall_at_the_height_of_a_meniscus),
+        cmocka_unit_test(water_meets_a_pane_in_the_depth_at_the_height_of_a_meniscus),
         cmocka_unit_test(the_border_of_a_thin_layer_is_a_wedge),
         cmocka_unit_test(tiles_change_no_pixel),
     };

@@ -71,6 +71,83 @@ static void a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer
     shot_close(&s);
 }
 
+/* ---- where the scene's picture ends */
+
+#define OPEN_FOV_DEG 24.0
+#define HOST_LIGHT   7.0 /* of the host's sky: far from what the environment has */
+
+static double open_scene(const shot *of, const double eye[3], const double direction[3], double rgb[3])
+{
+    (void)of, (void)eye, (void)direction;
+    rgb[0] = rgb[1] = rgb[2] = HOST_LIGHT;
+    return INFINITY;
+}
+
+/* How far outside the picture the end of a direction is, in parts of its width; negative inside. */
+static double outside_of(const double direction[3])
+{
+    const float *m = s.camera.view_from_world, *p = s.camera.clip_from_view;
+    double v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = (double)m[i] * direction[0] + (double)m[4 + i] * direction[1] + (double)m[8 + i] * direction[2];
+    return fmax(fabs(0.5 * (double)p[0] * v[0] / v[2]), fabs(0.5 * (double)p[5] * v[1] / v[2])) - 0.5;
+}
+
+/* Directions of view, of the ray that the water refracts, and of the one that it mirrors. */
+static double refract_ray(const double ray[3], double seen[3], double in_water[3], double mirrored[3])
+{
+    const double length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]), across = hypot(ray[0], ray[2]);
+    const double in = atan2(across, -ray[1]), out = asin(sin(in) / SHEET_WATER);
+    for (int i = 0; i < 3; i++) {
+        seen[i] = ray[i] / length;
+        mirrored[i] = (i == 1 ? -1 : 1) * seen[i];
+        in_water[i] = i == 1 ? -cos(out) : sin(out) * ray[i] / across;
+    }
+    return sheet_reflectance(in, out);
+}
+
+/* Nothing under the water: rays go on for ever. Where they end outside the picture by a sixteenth of it, the light is
+ * the environment's; where they end inside, it is that of the host's picture, which has the host's sky. */
+static void rays_that_leave_the_picture_see_the_environment(void **state)
+{
+    (void)state;
+    static const double eyes[3][3] = {{0, 0.3, 0.3}, {0.1, 0.25, 0.35}, {-0.15, 0.35, 0.2}};
+    uint32_t left = 0, stayed = 0;
+    double worst = 0;
+    shot_open(&s, SIDE, SIDE);
+    s.scene = open_scene;
+    s.fov_deg = OPEN_FOV_DEG;
+    sheet_fill(&s);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.absorption_1_m[c] = s.f.settings.scattering_1_m[c] = 0;
+    for (int i = 0; i < 3; i++) {
+        shot_aim(&s, eyes[i], origin);
+        shot_draw(&s);
+        for (uint32_t k = 0; k < SIDE * SIDE; k++) {
+            double ray[3], seen[3], in_water[3], mirrored[3], between[3];
+            shot_ray(&s, k % SIDE + 0.5, k / SIDE + 0.5, ray);
+            const double share = refract_ray(ray, seen, in_water, mirrored);
+            /* A layer of water turns the ray less: it ends between both directions, nearer to that in the water. */
+            for (int axis = 0; axis < 3; axis++)
+                between[axis] = 0.4 * seen[axis] + 0.6 * in_water[axis];
+            const bool leaves = outside_of(between) > 1.0 / 16 && outside_of(in_water) > 1.0 / 16;
+            if (!leaves && !(outside_of(in_water) < -0.01))
+                continue;
+            left += leaves;
+            stayed += !leaves;
+            for (int c = 0; c < 3; c++) {
+                const double through = leaves ? sheet_sky(&s, in_water, c) : HOST_LIGHT;
+                const double expected = (1 - share) * through + share * sheet_sky(&s, mirrored, c);
+                worst = fmax(worst, fabs((double)s.pixels[4 * k + (size_t)c] - expected));
+            }
+        }
+    }
+    printf("%u rays that leave the picture and %u that do not: off by up to %g\n", left, stayed, worst);
+    REQUIRE(left > 2000 && stayed > 2000);
+    REQUIRE(worst < 2e-3);
+    shot_close(&s);
+}
+
 /* ---- a red slab under the sheet */
 
 #define SLAB_M 0.05 /* half of its side */
@@ -265,6 +342,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_sheet_reflects_refracts_and_absorbs_as_fresnel_snell_and_beer_say),
+        cmocka_unit_test(rays_that_leave_the_picture_see_the_environment),
         cmocka_unit_test(an_object_under_water_has_no_outline_beside_it),
         cmocka_unit_test(an_object_under_water_is_whole),
         cmocka_unit_test(the_thickness_of_a_ball_is_its_chord),

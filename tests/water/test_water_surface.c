@@ -100,6 +100,77 @@ static void fill_grid(water_grid *grid)
     }
 }
 
+/* The surfel of an edge between two points of the grid, with their densities, in double precision: where the density is
+ * the level if it were linear, the normal there, and a step of Newton's method along it of half a grid step at most. */
+static void expect_surfel(const double from[3], const double to[3], const double field[2], double step, double at[3],
+                          double normal[3])
+{
+    const double level = (double)f.settings.level, part = (level - field[0]) / (field[1] - field[0]);
+    double gradient[3], length2 = 0;
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = from[axis] + part * (to[axis] - from[axis]);
+    const double missing = level - water_reference(&f, at, gradient);
+    for (int axis = 0; axis < 3; axis++)
+        length2 += gradient[axis] * gradient[axis];
+    const double length = sqrt(length2), moved = fmax(fmin(missing / length, 0.5 * step), -0.5 * step);
+    for (int axis = 0; axis < 3; axis++) {
+        normal[axis] = -gradient[axis] / length;
+        at[axis] += moved * gradient[axis] / length;
+    }
+}
+
+/* The angle from the normal of the surfel that is nearest to a position (rad), and its distance (m). */
+static double nearest_surfel(const double at[3], const double normal[3], double *distance)
+{
+    double nearest = INFINITY, own[3], sine2 = 0;
+    uint32_t best = 0;
+    for (uint32_t i = 0; i < f.stats.surfels; i++) {
+        const float *p = f.surfels[i].position;
+        const double r2 = pow((double)p[0] - at[0], 2) + pow((double)p[1] - at[1], 2) + pow((double)p[2] - at[2], 2);
+        best = r2 < nearest ? i : best;
+        nearest = fmin(nearest, r2);
+    }
+    water_unpack_normal(f.surfels[best].normal, own);
+    for (int axis = 0; axis < 3; axis++)
+        sine2 += pow(own[(axis + 1) % 3] * normal[(axis + 2) % 3] - own[(axis + 2) % 3] * normal[(axis + 1) % 3], 2);
+    *distance = sqrt(nearest);
+    return asin(fmin(sqrt(sine2), 1));
+}
+
+static void positions_and_normals_are_those_of_double_precision(void **state)
+{
+    (void)state;
+    water_fixture_open(&f);
+    put_water();
+    water_fixture_step(&f);
+    water_grid grid;
+    fill_grid(&grid);
+    const size_t next[3] = {1, (size_t)grid.sizes[0], (size_t)grid.sizes[0] * (size_t)grid.sizes[1]};
+    const size_t points = next[2] * (size_t)grid.sizes[2];
+    double worst_m = 0, worst = 0, sum = 0;
+    uint32_t count = 0;
+    for (size_t i = 0; i + next[2] < points; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double field[2] = {grid.field[i], grid.field[i + next[axis]]}, level = (double)f.settings.level;
+            double from[3], to[3], at[3], normal[3], distance;
+            if ((field[0] < level) == (field[1] < level))
+                continue;
+            water_grid_at(&grid, i, from);
+            water_grid_at(&grid, i + next[axis], to);
+            expect_surfel(from, to, field, grid.step, at, normal);
+            const double angle = nearest_surfel(at, normal, &distance);
+            worst_m = fmax(worst_m, distance);
+            worst = fmax(worst, angle);
+            sum += angle;
+            count++;
+        }
+    printf("%u surfels are off by up to %g m; their normals by %g rad on average, up to %g\n", count, worst_m,
+           sum / count, worst);
+    assert_int_equal(count, f.stats.surfels);
+    REQUIRE(worst_m < 5e-6 && sum / count < 1e-4 && worst < 1e-4);
+    water_fixture_close(&f);
+}
+
 static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)
 {
     (void)state;
@@ -199,6 +270,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(densities_are_those_of_double_precision),
         cmocka_unit_test(surfels_lie_on_the_surface_with_its_normal),
+        cmocka_unit_test(positions_and_normals_are_those_of_double_precision),
         cmocka_unit_test(every_edge_that_the_surface_crosses_has_a_surfel),
         cmocka_unit_test(water_that_is_compressed_has_its_surface),
         cmocka_unit_test(a_ball_has_the_volume_of_its_particles),
