@@ -42,6 +42,14 @@ for size in surfels=256 blocks=64; do
         { cat "$work/log"; fail "no line about max_$size"; }
 done
 
+# Its volume, too, is that of the particles that there is room for.
+render part --frames 3 --set water.max_particles=100
+python3 - "$work/part/stats.jsonl" <<'PY' || fail "the volume of 100 particles"
+import json, sys
+water = json.loads(open(sys.argv[1]).readline())["water"]
+sys.exit(water["particles"] != 100 or abs(water["volume_l"] / (99 * 0.02 ** 3 * 1000) - 1) > 0.1)
+PY
+
 # Volumes, where the program was built with OpenVDB.
 if "$virga" help render | grep -q 'built without OpenVDB'; then
     "$virga" render "$work/ball.yaml" -o "$work/volumes" --volumes 2>"$work/log" && fail "volumes without OpenVDB"

@@ -463,19 +463,26 @@ bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stat
     return stats->frame_index == state->step_frame;
 }
 
+/* Litres of the particles of the newest step that the water has room for. */
+static double shown_volume_l(shot *s, const water_state *p, uint32_t room)
+{
+    char ignored[256];
+    if (p->solver.fluid && !water_wait_for_solver(s, &p->solver, ignored, sizeof ignored))
+        return 0;
+    return water_volume_l(scene_water_of(s->scene), &p->source, p->given, p->count < room ? p->count : room);
+}
+
 static void write_stats(shot *s, void *state, jsonl *stats)
 {
     water_state *p = state;
     virga_water_stats now;
     if (!p->water || !water_step_stats(s, p, &now))
         return;
-    if (p->solver.fluid)
-        water_count_solved(s, p);
     jsonl_begin_object(stats, "water");
     jsonl_uint64(stats, "particles", now.particles);
     jsonl_uint64(stats, "invalid", now.invalid);
     jsonl_uint64(stats, "in_grid", now.in_grid);
-    jsonl_number(stats, "volume_l", 1000 * p->volume_m3);
+    jsonl_number(stats, "volume_l", shown_volume_l(s, p, now.particles));
     jsonl_uint64(stats, "surfels", now.surfels);
     jsonl_uint64(stats, "surfels_dropped", now.surfels_dropped);
     jsonl_uint64(stats, "splashes", now.splashes);

@@ -245,7 +245,7 @@ bool water_fill_solved(shot *s, water_state *state, double time_s, virga_water_s
             return false;
     }
     state->count = solver->count;
-    state->volume_m3 = solver->count * from->volume * pow(state->source.spacing_m, 3);
+    state->given = solver->now.mapped;
     state->step_frame = s->device.frame;
     return true;
 }
@@ -311,18 +311,6 @@ static void write_exchange(const virga_fluid_stats *now, jsonl *stats)
     jsonl_number(stats, "sprayed_ul", (double)now->sprayed_nl * 1e-3);
     jsonl_number(stats, "rest_ul", (double)now->rest_nl * 1e-3);
     jsonl_end(stats);
-}
-
-void water_count_solved(shot *s, water_state *state)
-{
-    const virga_particle_gpu *now = state->solver.now.mapped;
-    char ignored[256];
-    double shares = 0;
-    if (!water_wait_for_solver(s, &state->solver, ignored, sizeof ignored))
-        return;
-    for (uint32_t i = 0; i < state->solver.count; i++)
-        shares += (double)now[i].share;
-    state->volume_m3 = shares * scene_water_of(s->scene)->volume * pow(state->source.spacing_m, 3);
 }
 
 void water_write_solver_stats(shot *s, water_state *state, jsonl *stats)

@@ -183,19 +183,24 @@ static void turn(const float matrix[9], const float in[3], float out[3])
         out[row] = matrix[row * 3] * in[0] + matrix[row * 3 + 1] * in[1] + matrix[row * 3 + 2] * in[2];
 }
 
-/* Returns the sum of the shares. */
-static double copy_samples(const float matrix[9], const particle_sample *samples, uint32_t count,
-                           virga_particle_gpu *out)
+static void copy_samples(const float matrix[9], const particle_sample *samples, uint32_t count,
+                         virga_particle_gpu *out)
 {
-    double shares = 0;
     for (uint32_t i = 0; i < count; i++) {
         turn(matrix, samples[i].position, out[i].position);
         turn(matrix, samples[i].velocity, out[i].velocity);
         out[i].share = samples[i].share;
         out[i].id = samples[i].id;
-        shares += (double)samples[i].share;
     }
-    return shares;
+}
+
+double water_volume_l(const scene_water *from, const water_source *source, const virga_particle_gpu *particles,
+                      uint32_t count)
+{
+    double shares = 0;
+    for (uint32_t i = 0; i < count; i++)
+        shares += (double)particles[i].share;
+    return 1000 * shares * from->volume * pow(source->spacing_m, 3);
 }
 
 bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
@@ -218,10 +223,10 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     memcpy(info->origin_m, from->position_m, sizeof info->origin_m);
     /* The step leaves further ones out, and says so. */
     const uint32_t count = info->count < state->max_particles ? info->count : state->max_particles;
-    const double shares =
-        copy_samples(matrix, samples, count, (void *)((char *)state->particles.mapped + info->offset));
+    virga_particle_gpu *out = (void *)((char *)state->particles.mapped + info->offset);
+    copy_samples(matrix, samples, count, out);
+    state->given = out;
     state->count = count;
-    state->volume_m3 = shares * from->volume * pow(state->source.spacing_m, 3);
     state->step_frame = s->device.frame;
     return true;
 }

@@ -55,7 +55,7 @@ typedef struct water_state {
     host_buffer particles;  /* HOST_FRAMES parts of max_particles */
     double frame_s, time_s; /* of the files, in the newest frame of the shot and in the newest step */
     uint32_t count;         /* of the newest step */
-    double volume_m3;       /* of all particles of the newest step */
+    const virga_particle_gpu *given; /* them; those of a solver once it has been waited for */
     uint64_t step_frame;    /* device frame of the newest step */
     shot_read surfels, droplets, foam;
     /* The particles of the newest step, for views. */
@@ -126,9 +126,6 @@ bool water_copy_solved(shot *s, water_state *state, virga_particle_gpu *particle
 /* Waits for the newest step, and makes its states readable. */
 bool water_wait_for_solver(shot *s, const water_solver *solver, char *error, size_t error_size);
 
-/* Adds up the water of the newest step. */
-void water_count_solved(shot *s, water_state *state);
-
 void water_write_solver_stats(shot *s, water_state *state, jsonl *stats);
 
 /* ---- bodies in it */
@@ -165,6 +162,10 @@ void water_write_body_stats(const water_state *state, jsonl *stats);
 
 /* The newest statistics, if they are those of the newest step. */
 bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stats);
+
+/* Litres of some particles. */
+double water_volume_l(const scene_water *from, const water_source *source, const virga_particle_gpu *particles,
+                      uint32_t count);
 
 /* The particles of the newest step once more, needs free(). NULL: see `error`. */
 virga_particle_gpu *water_copy_particles(shot *s, water_state *state, uint32_t *count, char *error, size_t error_size);
