@@ -40,8 +40,8 @@ static const char *const sums[SUMS] = {"density, surface, normals", "spray and f
 enum { PASSES = sizeof passes / sizeof passes[0] };
 
 /* Frames with and without the draws, by their fences: on software Vulkan, timestamps inside a render pass do not see
- * the work of its pixels. */
-enum { UNDRAWN = PASSES, WHOLE, SURFELS, TIMES };
+ * the work of its pixels. And the passes of the surface with anisotropic kernels. */
+enum { UNDRAWN = PASSES, WHOLE, SURFELS, ELLIPSOIDS, TIMES };
 
 typedef struct pool {
     const struct row *row;
@@ -99,7 +99,7 @@ static bool make_water(bench *b, pool *p)
     def.max_particles = p->count;
     def.max_cells = at_most(cells * cells * (cells + 1), 16777216);
     def.max_blocks = at_most(p->count, 262144);
-    def.max_surfels = at_most(4.0 * p->count, 2097152);
+    def.max_surfels = at_most(4.0 * p->count, 1048576); /* more have no room in a buffer with their parts */
     def.max_spray = at_most(p->count / 16.0, 65536);
     def.max_droplets = at_most(p->count, 1048576);
     def.max_parts = at_most(8.0 * p->count, 1048576);
@@ -110,6 +110,9 @@ static bool make_water(bench *b, pool *p)
     *settings = virga_default_water_settings();
     settings->contact = VIRGA_WATER_CONTACT_PREPARE;
     settings->spacing_m = 1.0f / (float)p->row->side;
+    /* Velocities of neighbours differ by as much as they are apart. */
+    for (int i = 0; i < 2; i++)
+        settings->foam_air_m_s[i] *= (float)rows[0].side / (float)p->row->side;
     settings->lighting.environment_sh[0][0] = settings->lighting.environment_sh[0][1] = 1;
     settings->lighting.environment_sh[0][2] = settings->lighting.environment_sh[1][2] = 1;
     if (virga_water_create(b->context, &def, &p->water) < 0 || virga_target_create(b->context, &layer, &p->layer) < 0 ||
@@ -215,6 +218,18 @@ static void read_times(bench *b, bool by_surfels, int run, double times[TIMES][B
             times[j][run] = bench_pass_ms(b, passes[j].name);
 }
 
+static bool time_ellipsoids(bench *b, pool *p, double *sum_ms)
+{
+    double whole;
+    p->settings.kernel = VIRGA_WATER_KERNEL_ANISOTROPIC;
+    const bool good = frame(b, p, false, VIRGA_WATER_SHADING_PIXELS, &whole);
+    p->settings.kernel = VIRGA_WATER_KERNEL_ISOTROPIC;
+    *sum_ms = 0;
+    for (int j = 0; j < PASSES; j++)
+        *sum_ms += passes[j].sum == SURFACE ? bench_pass_ms(b, passes[j].name) : 0;
+    return good;
+}
+
 static bool time_passes(bench *b, pool *p, double times[TIMES][BENCH_RUNS])
 {
     bool good = true;
@@ -225,6 +240,7 @@ static bool time_passes(bench *b, pool *p, double times[TIMES][BENCH_RUNS])
         read_times(b, false, run, times);
         good = good && frame(b, p, true, VIRGA_WATER_SHADING_SURFELS, &times[SURFELS][run]);
         read_times(b, true, run, times);
+        good = good && time_ellipsoids(b, p, &times[ELLIPSOIDS][run]);
     }
     return good && !interrupt_requested();
 }
@@ -246,6 +262,7 @@ static void print_times(const pool *p, double times[TIMES][BENCH_RUNS], const be
     printf("  %-26s %9.3f ms  %6.1f x fill\n", "draw, with foam", drawn, drawn / machine->fill_ms);
     for (int i = 0; i < SUMS; i++)
         printf("  %-26s %9.3f ms\n", sums[i], sum_ms[i]);
+    printf("  %-26s %9.3f ms\n", "surface of ellipsoids", bench_median(times[ELLIPSOIDS], BENCH_RUNS));
     printf("  %-26s %9.3f ms, by its fence\n", "a whole frame", whole);
     printf("  %-26s %9.3f ms, by its fence\n", "the same, light by surfels", bench_median(times[SURFELS], BENCH_RUNS));
 }
