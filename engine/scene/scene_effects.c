@@ -59,8 +59,9 @@ static void share_splash(const virga_scene_def *def, uint32_t index, void *effec
     splash->max_ticks_per_step = def->rain.max_ticks_per_step;
     splash->max_spawns = spawns;
     splash->max_returned_droplets = returned > spawns ? returned : spawns;
-    splash->max_handed = def->with_contacts ? MAX_HANDED : 0;
-    if (def->with_water && !def->with_contacts)
+    const bool throws = def->with_contacts || splash->max_drips > 0;
+    splash->max_handed = throws ? MAX_HANDED : 0;
+    if (def->with_water && !throws)
         splash->max_handed = def->water.max_droplets < MAX_HANDED ? def->water.max_droplets : MAX_HANDED;
 }
 
@@ -479,6 +480,9 @@ static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuf
     virga_ground_spawns(scene_find(scene, &ground_type, 0), &info.spawns, &info.spawns_size);
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
+    virga_rainfall rain;
+    virga_rain_rainfall_get(rain_of(scene), &rain);
+    info.rain_mm_h = rain.rate_mm_h;
     fill_floors(scene_find(scene, &ground_type, 0), &info.floors);
     if (has_handed(scene)) {
         fill_spray(scene, frame, &info);

@@ -23,6 +23,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_spawns, 256, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
     DEF(U32, max_handed, 0, 1048576),
+    DEF(U32, max_drips, 0, 65536),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
 };
@@ -37,6 +38,9 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, wind_share, 0, 2, 0.4),
     SETTING(FLOAT, droplet_range_m, 0, 1000, 2.5),
     SETTING(FLOAT, dot_min_mm, 0.05, 5, 0.5),
+    SETTING(FLOAT, drip_min_mm, 1, 7, 3),
+    SETTING(FLOAT, drip_max_mm, 1, 7, 5),
+    SETTING(BOOL, drip_wet, false, true, true),
     SETTING(FLOAT, air_density, 0.3, 2, 1.204),
     SETTING(FLOAT, gain, 0, 100, 1, .look = true),
     SETTING(FLOAT, light_gain, 0, 100, 1, .look = true),
@@ -59,11 +63,15 @@ static uint32_t power_of_two(uint32_t min)
     return power;
 }
 
+#define HANDED_BY_DRIPS 4096 /* room for drops of a step, if nothing else is handed over */
+
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_splash_def *def = given;
     def->max_splashes = power_of_two(def->max_splashes);
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
+    if (def->max_drips && !def->max_handed)
+        def->max_handed = HANDED_BY_DRIPS;
     def->max_returned_droplets = virga_clamp_setting_u32(log, "splash_def.max_returned_droplets",
                                                          def->max_returned_droplets, def->max_spawns, 4194240, NULL);
     return VIRGA_OK;
@@ -121,6 +129,8 @@ enum {
     COUNT_TICKS,
     COUNT_VIEWS,
     COUNT_HANDED_BYTES,
+    COUNT_DRIP_BLOCKS,
+    COUNT_DRIP_UPLOADS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -140,6 +150,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_HANDED_BYTES] = def->max_handed ? sizeof(virga_handed_droplets_gpu) +
                                                        (VkDeviceSize)def->max_handed * sizeof(virga_handed_droplet_gpu)
                                                  : 0;
+    counts[COUNT_DRIP_BLOCKS] = splash_drip_blocks(def);
+    counts[COUNT_DRIP_UPLOADS] = counts[COUNT_DRIP_BLOCKS] ? counts[COUNT_DRIP_BLOCKS] : 1; /* a ring is never empty */
     counts[COUNT_VIEWS] = SPLASH_MAX_VIEWS;
 }
 
@@ -156,6 +168,11 @@ static const virga_effect_buffer buffers[] = {
     {"splash.returns", AT(returned_droplets), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
      .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
     {"splash.handed", AT(handed), VIRGA_USE_INDIRECT, DEVICE, .entry = 1, .count = COUNT_HANDED_BYTES, .first = FILL},
+    {"splash.drip_sites", AT(drip_sites), VIRGA_USE_STORAGE, DEVICE,
+     .entry = VIRGA_DRIP_SITES_PER_BLOCK * sizeof(virga_drip_site_gpu), .count = COUNT_DRIP_BLOCKS, .first = FILL,
+     .scratch = true},
+    {"splash.drip_waters", AT(drip_waters), VIRGA_USE_STORAGE, DEVICE,
+     .entry = VIRGA_DRIP_SITES_PER_BLOCK * sizeof(virga_drip_gpu), .count = COUNT_DRIP_BLOCKS, .first = FILL},
     {"splash.selection", AT(selection), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SELECTION_BYTES},
     {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_LISTED, .per_view = true},
@@ -169,6 +186,8 @@ static const virga_effect_buffer buffers[] = {
 static const virga_effect_ring rings[] = {
     {"splash.ticks", AT(tick_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_splash_tick_gpu), COUNT_TICKS},
     {"splash.rules", AT(rules_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_splash_rules_gpu), VIRGA_COUNT_ONE},
+    {"splash.drip_ring", AT(drip_ring), VIRGA_USE_STORAGE, VIRGA_DRIP_SITES_PER_BLOCK * sizeof(virga_drip_site_gpu),
+     COUNT_DRIP_UPLOADS},
     {"splash.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(splash_view_block), COUNT_VIEWS},
 };
 
@@ -183,6 +202,7 @@ static const virga_effect_layout layouts[] = {
     [SPLASH_LAYOUT_RECALL] = {AT(recall_bindings), splash_recall_bindings, SPLASH_RECALL_BINDINGS, 1, 0},
     [SPLASH_LAYOUT_HITS] = {AT(hits_bindings), splash_hits_bindings, SPLASH_HITS_BINDINGS, VIRGA_SPLASH_MAX_PANES,
                             2 * sizeof(uint32_t)},
+    [SPLASH_LAYOUT_DRIP] = {AT(drip_bindings), splash_drip_bindings, SPLASH_DRIP_BINDINGS, 1, 0},
 };
 
 static const virga_effect_pass passes[] = {
@@ -193,6 +213,7 @@ static const virga_effect_pass passes[] = {
     STEP(fall_compact),
     STEP(recall, .layout = SPLASH_LAYOUT_RECALL),
     STEP(give_hits, .layout = SPLASH_LAYOUT_HITS),
+    STEP(drip, .layout = SPLASH_LAYOUT_DRIP),
     STEP(adopt),
     STEP(adopt_end),
     STEP(rebase),
@@ -213,6 +234,16 @@ static const virga_effect_pool pools[] = {
     POOL(max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK),
     POOL(max_returned_droplets, 256, 256),
 };
+
+static virga_result init(void *object)
+{
+    return splash_drips_init(object);
+}
+
+static void destroy(void *object)
+{
+    splash_drips_destroy(object);
+}
 
 static void describe(const void *object, char *line, size_t size)
 {
@@ -247,7 +278,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(splash)
 const virga_effect_type splash_type = {
     VIRGA_EFFECT_TYPE(splash, "splash", "splash_settings"),
     VIRGA_EFFECT_DRAWS(splash),
-    VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, prepare),
+    VIRGA_CALLBACKS(fit_device, fill_settings, check_settings, prepare, init, destroy),
     .lost = splash_lost,
     VIRGA_TABLE(state_row),
     .check_state = splash_check_state,

@@ -66,6 +66,22 @@ VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash
     return virga_bindings_write(splash->base.context, splash->recall_bindings, 0, bound);
 }
 
+/* Of the pass of drips; none of these is bound without def.max_drips. */
+const virga_binding_kind splash_drip_bindings[SPLASH_DRIP_BINDINGS] = {
+    RING(COMPUTE, tick_ring, virga_splash_tick_gpu), /* 0 */
+    BUFFER(handed),                                  /* 1 */
+    BUFFER(drip_sites),                              /* 2 */
+    BUFFER(drip_waters),                             /* 3 */
+    BUFFER(state),                                   /* 4 */
+};
+
+VkDescriptorSet splash_write_drip_set(virga_splash *splash)
+{
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&splash->base, splash->drip_bindings, bound);
+    return virga_bindings_write(splash->base.context, splash->drip_bindings, 0, bound);
+}
+
 /* Of the pass that gives hits to a pane. */
 enum { HITS_LIST = 1 };
 

@@ -6,6 +6,7 @@
  *   splash_tick.c         the block that a tick's passes read
  *   splash_step.c         ticks
  *   splash_spray.c        droplets that water hands over
+ *   splash_drips.c        drops that fall from edges
  *   splash_state.c        checks a saved state
  *   splash_draw.c         prepare, attach, draw
  */
@@ -17,6 +18,7 @@
 #include "gpu/state.h"
 #include "splash/splash.h"
 
+#include <virga/shared/drip_gpu.h>
 #include <virga/shared/splash_gpu.h>
 #include <virga/shared/view_gpu.h>
 #include <virga/splash.h>
@@ -35,9 +37,14 @@ void splash_push_rules(virga_splash *splash);
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
-enum { SPLASH_BINDINGS = 23, SPLASH_RECALL_BINDINGS = 4, SPLASH_HITS_BINDINGS = 2 };
+enum {
+    SPLASH_BINDINGS = 23,
+    SPLASH_RECALL_BINDINGS = 4,
+    SPLASH_HITS_BINDINGS = 2,
+    SPLASH_DRIP_BINDINGS = 5,
+};
 
-enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL, SPLASH_LAYOUT_HITS };
+enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL, SPLASH_LAYOUT_HITS, SPLASH_LAYOUT_DRIP };
 
 #define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of the passes that depend only on the style */
 
@@ -98,15 +105,25 @@ struct virga_splash {
     uint32_t current; /* index of the one with the newest droplets */
     virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *selection, *index_buffer;
     virga_buffer *handed; /* NULL without def.max_handed */
+    /* The host's copy of sites; NULL without def.max_drips, as are the buffers. */
+    struct {
+        virga_drip_site_gpu *sites;
+        uint32_t count;
+        double origin_m[3];
+        bool sent; /* to the device */
+        uint64_t sent_frame;
+    } drips;
+    virga_buffer *drip_sites, *drip_waters;
+    virga_ring drip_ring;
     VIRGA_PER_VIEW(virga_buffer, lists);
     VIRGA_PER_VIEW(virga_buffer, sprites);
     VIRGA_PER_VIEW(virga_buffer, prepared_buffer);
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
-    virga_bindings *bindings, *recall_bindings, *hits_bindings;
+    virga_bindings *bindings, *recall_bindings, *hits_bindings, *drip_bindings;
     virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *alive, *indices, *recall, *adopt,
-        *adopt_end, *give_hits;
+        *adopt_end, *drip, *give_hits;
     virga_pipeline *view_scan, *view_compact;
     virga_pipeline *few_mark[SPLASH_STYLES], *droplet_mark[SPLASH_STYLES], *splash_mark[SPLASH_STYLES];
     virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];
@@ -142,12 +159,13 @@ static inline uint32_t splash_max_crowns(const virga_splash_def *def)
 
 /* ---- splash_descriptors.c */
 extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS], splash_recall_bindings[SPLASH_RECALL_BINDINGS],
-    splash_hits_bindings[SPLASH_HITS_BINDINGS];
+    splash_hits_bindings[SPLASH_HITS_BINDINGS], splash_drip_bindings[SPLASH_DRIP_BINDINGS];
 
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
 VkDescriptorSet splash_write_hits_set(virga_splash *splash, uint32_t index, VkBuffer hits, VkDeviceSize offset,
                                       VkDeviceSize size);
+VkDescriptorSet splash_write_drip_set(virga_splash *splash);
 VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info);
 /* Binds a set for passes, with the newest tick, view and rules. */
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkDescriptorSet set);
@@ -159,6 +177,18 @@ virga_result splash_spray_check(const virga_splash *splash, const virga_splash_s
 
 /* After the ticks: spray whose particle fell back ends, and new spray is taken. */
 void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
+
+/* ---- splash_drips.c */
+virga_result splash_drips_init(virga_splash *splash);
+void splash_drips_destroy(virga_splash *splash);
+/* After the ticks, with their block pushed: drops fall into the list that is handed over. */
+void splash_drips_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
+
+/* Blocks of sites in the ring. */
+static inline uint32_t splash_drip_blocks(const virga_splash_def *def)
+{
+    return (def->max_drips + VIRGA_DRIP_SITES_PER_BLOCK - 1) / VIRGA_DRIP_SITES_PER_BLOCK;
+}
 
 /* ---- splash_step.c */
 /* With the set of a step or a view. A prepare calls it too: its step may be in a lost frame. */

@@ -33,6 +33,8 @@ virga_result splash_spray_check(const virga_splash *splash, const virga_splash_s
         virga_host_buffer_check(splash->base.context, "step_info.leaver_table", info->leaver_table) ||
         virga_host_buffer_check(splash->base.context, "step_info.floors", floors->floors))
         return VIRGA_ERROR_INVALID;
+    if (!(info->rain_mm_h >= 0 && info->rain_mm_h <= 1000))
+        return virga_wrong_argument(log, "step_info.rain_mm_h: expected 0 to 1000, got %g", (double)info->rain_mm_h);
     if (!(info->handed_late_s >= 0 && info->handed_late_s <= 1))
         return virga_wrong_argument(log, "step_info.handed_late_s: expected 0 to 1, got %g",
                                     (double)info->handed_late_s);
@@ -67,6 +69,7 @@ void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_
     if (info->leavers)
         recall(splash, cmd, info);
     splash_push_tick(splash, info, info->ticks, still);
+    splash_drips_record(splash, cmd, info);
     splash_bind(splash, cmd, splash->step_sets[splash->current]);
     virga_dispatch_indirect_and_barrier(context, cmd, splash->adopt, splash->handed->buffer,
                                         offsetof(virga_handed_droplets_gpu, group_count));

@@ -34,6 +34,9 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->spray_back_nl = count_of(state, VIRGA_SPLASH_SPRAY_BACK);
     stats->spray_returned_nl = count_of(state, VIRGA_SPLASH_SPRAY_RETURNED);
     stats->spray_panes_nl = count_of(state, VIRGA_SPLASH_SPRAY_PANES);
+    stats->drips = count_of(state, VIRGA_SPLASH_DRIPS);
+    stats->drip_rain_nl = count_of(state, VIRGA_SPLASH_DRIP_IN);
+    stats->drip_nl = count_of(state, VIRGA_SPLASH_DRIP_OUT);
     stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
     stats->splashes_cut_short = count_of(state, VIRGA_SPLASH_CUT_SHORT);
     stats->splashes_alive = state->alive;
@@ -68,6 +71,8 @@ void splash_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
 void splash_lost(void *object, uint64_t frame, uint32_t did)
 {
     virga_splash *splash = object;
+    if (splash->drips.sent_frame == frame)
+        splash->drips.sent = false;
     if (!(did & 1u << SPLASH_PART_STEP) || splash->before.frame != frame)
         return;
     splash->current = splash->before.current;
@@ -77,7 +82,9 @@ void splash_lost(void *object, uint64_t frame, uint32_t did)
 
 void splash_state_loaded(void *object)
 {
-    ((virga_splash *)object)->before.frame = 0;
+    virga_splash *splash = object;
+    splash->before.frame = 0;
+    splash->drips.sent = false;
 }
 
 static void remember(virga_splash *splash)

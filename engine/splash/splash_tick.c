@@ -1,6 +1,8 @@
 /* splash/splash_tick.c - the block that a tick's passes read. */
 #include "splash/splash_internal.h"
 
+#include <math.h>
+
 /* The pane `before_s` before the end of the step. */
 static virga_splash_pane_gpu pane_of(const virga_splash *splash, const virga_splash_pane *pane, double before_s)
 {
@@ -40,6 +42,19 @@ static void fill_spray(const virga_splash *splash, const virga_splash_step_info 
     }
 }
 
+/* What the pass of drips reads. A millimetre of rain on a square metre is a litre, 1e9 nl. */
+static void fill_drips(const virga_splash *splash, const virga_splash_step_info *info, virga_splash_tick_gpu *out)
+{
+    const virga_splash_settings *settings = &splash->settings;
+    out->drip_sites = splash->drips.count;
+    out->drip_wet = settings->drip_wet;
+    out->drip_nl = (float)((double)info->rain_mm_h / 3600 * splash->def.tick_s * 1e9);
+    out->drip_m[0] = 1e-3f * fminf(settings->drip_min_mm, settings->drip_max_mm);
+    out->drip_m[1] = 1e-3f * settings->drip_max_mm;
+    for (int axis = 0; axis < 3; axis++)
+        out->drip_offset[axis] = (float)(splash->drips.origin_m[axis] - info->handed_origin_m[axis]);
+}
+
 void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
                       const double shift[3])
 {
@@ -61,5 +76,6 @@ void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, 
         out.wind[axis] = settings->wind_share * info->wind_m_s[axis];
     }
     fill_spray(splash, info, tick_in_step, &out);
+    fill_drips(splash, info, &out);
     splash->tick_offset = virga_ring_push(splash->base.context, &splash->tick_ring, &out, sizeof out);
 }

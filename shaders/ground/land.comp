@@ -144,8 +144,8 @@ void main()
     const bool spray = (impact.material & VIRGA_IMPACT_SPRAY) != 0u;
     if (head.is_return != 0u && !spray)
         count_water(VIRGA_GROUND_RETURNED, impact.water_nl);
-    if (head.is_return != 0u && spray) { // none of it flies up again
-        count_water(VIRGA_GROUND_SPRAY, here);
+    if (head.is_return != 0u && spray) {
+        count_water(VIRGA_GROUND_SPRAY, here + flown);
         count_water(VIRGA_GROUND_SPRAY_OFF, elsewhere);
     }
 }

@@ -43,10 +43,13 @@ vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
     return vec3(own.x + moved.x, floor_m, own.z + moved.y);
 }
 
-// A drop splashes by its rule; a droplet that falls back on wet ground makes a dot.
+#define FALLING_M 0.0025 // droplets of splashes are smaller, drops that fall from edges are larger
+
+// A drop splashes by its rule, as does a large one that falls from an edge or is thrown; a droplet that falls back on
+// wet ground makes a dot. As splashes have no large droplets, this ends.
 uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, float depth_m)
 {
-    if (head.is_return != 0u)
+    if (head.is_return != 0u && !(impact.diameter_m >= FALLING_M && impact.velocity[1] < -1.5))
         return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_min_m ? VIRGA_SPLASH_DOT
                                                                                       : VIRGA_SPLASH_NONE;
     const bool splashes = impact.diameter_m >= rule.min_diameter_m && depth_m >= rule.min_depth_m;

@@ -34,7 +34,7 @@ struct virga_droplet_gpu {
 #define VIRGA_DROPLET_INDEX(kind) (((kind) >> 16) & 255u) /* index among the droplets of its splash */
 /* index among all droplets of its drop, over all splashes of the drop */
 #define VIRGA_DROPLET_NUMBER(kind) (((kind) >> 16) & 8191u)
-#define VIRGA_DROPLET_SPRAY        0x00000800u /* it comes from water that was simulated, see handed_droplet.h */
+#define VIRGA_DROPLET_SPRAY        0x00000800u            /* it was handed over, see handed_droplet.h */
 #define VIRGA_DROPLET_PANE(kind)   (((kind) >> 12) & 15u) /* 1 + number of the pane that it has hit; 0: none */
 #define VIRGA_DROPLET_ALIVE        0x80000000u
 #define VIRGA_DROPLET_FREE         0x40000000u /* it has left its pile */

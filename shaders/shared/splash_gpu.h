@@ -80,6 +80,12 @@ struct virga_splash_tick_gpu {
     float inv_cell_m;
     float base; /* m, height from which floors count, relative to the anchor */
     uint pane_count;
+    /* Places from which rain water drips. */
+    uint drip_sites;
+    uint drip_wet;        /* 1: sites begin with the film of steady rain */
+    float drip_nl;        /* of rain that falls on a level square metre in a tick */
+    float drip_m[2];      /* m, diameters of the smallest and the largest drop */
+    float drip_offset[3]; /* m, from the origin of handed positions to that of sites */
     virga_splash_pane_gpu panes[VIRGA_SPLASH_PANES];
 };
 
@@ -102,8 +108,12 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_SPRAY_RETURNED 7
 #define VIRGA_SPLASH_SPRAY_PANES    8
 #define VIRGA_SPLASH_CUT_SHORT      9 /* splashes that newer ones replaced before their end */
-#define VIRGA_SPLASH_BY_MODEL       10
-#define VIRGA_SPLASH_COUNTS         170
+/* Of drips: nl of rain that drains to them; nl that fell as drops; these drops. */
+#define VIRGA_SPLASH_DRIP_IN  10
+#define VIRGA_SPLASH_DRIP_OUT 11
+#define VIRGA_SPLASH_DRIPS    12
+#define VIRGA_SPLASH_BY_MODEL 13
+#define VIRGA_SPLASH_COUNTS   173
 
 /* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
@@ -131,7 +141,7 @@ struct virga_splash_state_gpu {
     /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
     uint sprite_groups[3];
     uint view_groups[3]; /* the same, over droplets only */
-    virga_splash_count_gpu counts[170];
+    virga_splash_count_gpu counts[173];
 };
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */
@@ -208,7 +218,7 @@ struct virga_splash_prepared_gpu {
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 52);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
-VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 132 + 64 * VIRGA_SPLASH_PANES);
+VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 164 + 64 * VIRGA_SPLASH_PANES);
 VIRGA_ASSERT_SIZE(virga_splash_pane_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);

@@ -372,6 +372,23 @@ void call_virga_splash_step(calls *c)
         CALLS_TRY(c, h.context, flags, virga_splash_step, h.object, cmd, wrong ? NULL : &info);
 }
 
+/* Up to as many as a definition of these tests has room for, and one more. */
+void call_virga_splash_set_drips(calls *c)
+{
+    static virga_drip_site sites[65];
+    const calls_handle h = calls_pick(c, CALLS_SPLASH);
+    const bool wrong = calls_slip(c, 20);
+    const uint32_t count = wrong ? UINT32_MAX : calls_below(c, 66);
+    for (uint32_t i = 0; i < 65; i++) {
+        calls_doubles(c, sites[i].position_m, 3, -10, 10);
+        calls_floats(c, &sites[i].catch_m2, 1, 0.001, 4);
+        calls_floats(c, &sites[i].width_m, 1, 0.005, 1);
+        calls_floats(c, &sites[i].slope, 1, 0.005, 1);
+    }
+    CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_splash_set_drips, h.object,
+              calls_slip(c, 12) ? NULL : sites, count);
+}
+
 void call_virga_splash_prepare(calls *c)
 {
     const calls_handle h = calls_pick(c, CALLS_SPLASH);

@@ -194,6 +194,7 @@ void calls_fill_splash_def(calls *c, virga_splash_def *out)
     SMALL(max_droplets, 64, 1024);
     SMALL(max_spawns, 64, 256);
     SMALL(max_handed, 0, 64);
+    SMALL(max_drips, 0, 64);
     SMALL(max_returned_droplets, 64, 256);
     if (!c->device->honest)
         CALLS_WILD_ALL(c, out);

@@ -21,6 +21,7 @@ typedef struct splash_fixture {
     uint32_t spawn_count; /* of the next step */
     double camera[3];
     float wind[3];
+    float rain_mm_h;
     uint32_t tick;
     /* Read back. */
     const virga_splash_state_gpu *state;
@@ -28,6 +29,7 @@ typedef struct splash_fixture {
     const virga_splash_gpu *splashes;
     const virga_impacts_gpu *returns_head;
     const virga_impact_gpu *returned_droplets;
+    const virga_drip_gpu *drips; /* NULL without def.max_drips */
 } splash_fixture;
 
 /* Small rings, and ticks of the default length. */
@@ -45,6 +47,7 @@ static inline void splash_fixture_buffers(splash_fixture *f)
 {
     const virga_splash *splash = f->splash;
     const VkDeviceSize state = splash->state->size, droplets = splash_droplets(splash)->size;
+    const VkDeviceSize drips = splash->drip_waters ? splash->drip_waters->size : 0;
     char *error = f->gpu.error;
     const size_t size = sizeof f->gpu.error;
     REQUIRE(host_buffer_create(&f->gpu.device,
@@ -54,7 +57,7 @@ static inline void splash_fixture_buffers(splash_fixture *f)
     REQUIRE(host_buffer_create(&f->gpu.device, state + droplets, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD,
                                "droplets up", &f->upload, error, size));
     REQUIRE(host_buffer_create(
-        &f->gpu.device, state + droplets + splash->splashes->size + splash->returned_droplets->size,
+        &f->gpu.device, state + droplets + splash->splashes->size + splash->returned_droplets->size + drips,
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "droplets down", &f->download, error, size));
 }
 
@@ -119,6 +122,7 @@ static inline void splash_fixture_read(splash_fixture *f, VkCommandBuffer cmd)
     f->splashes = splash_fixture_copy(f, cmd, f->splash->splashes, &offset);
     f->returns_head = splash_fixture_copy(f, cmd, f->splash->returned_droplets, &offset);
     f->returned_droplets = (const virga_impact_gpu *)(f->returns_head + 1);
+    f->drips = f->splash->drip_waters ? splash_fixture_copy(f, cmd, f->splash->drip_waters, &offset) : NULL;
 }
 
 /* One frame of `ticks` ticks with the spawns set. Reads back everything. */
@@ -135,7 +139,8 @@ static inline void splash_fixture_step(splash_fixture *f, uint32_t ticks)
                                          .spawns = f->spawns.buffer,
                                          .first_tick = f->tick,
                                          .ticks = ticks,
-                                         .wind_m_s = {f->wind[0], f->wind[1], f->wind[2]}};
+                                         .wind_m_s = {f->wind[0], f->wind[1], f->wind[2]},
+                                         .rain_mm_h = f->rain_mm_h};
     REQUIRE(virga_splash_step(f->splash, cmd, &info) == VIRGA_OK);
     splash_fixture_read(f, cmd);
     splash_fixture_submit(f);

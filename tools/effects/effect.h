@@ -219,6 +219,9 @@ typedef struct tool_effect {
     bool (*define)(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size);
     /* Called after a mesh of the scene is loaded. */
     void (*mark_mesh)(const scene_file *scene, host_mesh *mesh);
+    /* Called then too, with its geometry. */
+    bool (*read_mesh)(shot *s, const host_mesh *mesh, const host_vertex *vertices, const uint32_t *indices, char *error,
+                      size_t error_size);
     /* Called after the simulation is created. */
     bool (*open)(shot *s, void *state, char *error, size_t error_size);
     /* Called at the start and when the size of the target changes. Only for shots that draw. */

@@ -6,6 +6,7 @@
 #include "materials.h"
 #include "point_columns.h"
 #include "scene_rows.h"
+#include "splash/drips.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -22,6 +23,18 @@ static const scene_keyword splash_modes[] = {
     {"paper", SCENE_SPLASH_MODE_PAPER}, {"physical", SCENE_SPLASH_MODE_PHYSICAL}, {NULL, 0}};
 static const scene_keyword splash_styles[] = {
     {"paper", SCENE_SPLASH_STYLE_PAPER}, {"film", SCENE_SPLASH_STYLE_FILM}, {NULL, 0}};
+static const scene_row drip_rows[] = {
+    SWITCH(scene_splash_drips, on, "false", RESTARTS, "rain drips from awnings, balconies, leaves, cars"),
+    NUMBER(scene_splash_drips, reach_m, 0.01, 100, "2.5", RESTARTS,
+           "surfaces on which water runs farther are roofs with gutters, and do not drip"),
+    NUMBER(scene_splash_drips, min_mm, 1, 7, "3", LIVE, "diameter of the smallest drops that fall"),
+    NUMBER(scene_splash_drips, max_mm, 1, 7, "5", LIVE, "diameter of the largest"),
+    SWITCH(scene_splash_drips, wet, "true", RESTARTS, "it has rained for long before the first frame"),
+    WHOLE(scene_splash_drips, max_sites, 16, 65536, "16384", RESTARTS,
+          "places that drip at most: those with the most water; 176 bytes each"),
+};
+static const scene_group drip_group = SCENE_GROUP(scene_splash_drips, drip_rows);
+
 static const scene_row splash_rows[] = {
     SWITCH(scene_splash, on, "@ground.on", RESTARTS, "drops splash where they land on the ground"),
     CHOICE(scene_splash, mode, splash_modes, "physical", LIVE,
@@ -44,6 +57,7 @@ static const scene_row splash_rows[] = {
     NUMBER(scene_splash, parts_px, 0.5, 10000, "1.3", LIVE,
            "small splashes at least this wide, from the middle, show ring and droplets; smaller ones are spots"),
     NUMBER(scene_splash, near_fade_m, 0, 5, "0.05", LIVE, "what is nearer to the camera fades out"),
+    GROUP(scene_splash, drips, &drip_group, LIVE, "drops that fall from edges"),
 };
 static const scene_group splash_group = SCENE_GROUP(scene_splash, splash_rows);
 
@@ -91,16 +105,16 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
     def->with_splash = from->on;
     def->splash.max_splashes = from->max_splashes;
     def->splash.max_droplets = from->max_droplets;
+    def->splash.max_drips = from->on && from->drips.on ? from->drips.max_sites : 0;
     return true;
 }
 
 static bool open_state(shot *s, void *state, char *error, size_t error_size)
 {
     splash_state *p = state;
-    (void)error, (void)error_size;
     p->splash = virga_scene_splash(s->simulation);
     p->rain = virga_scene_rain(s->simulation);
-    return true;
+    return tool_drips_open(s, p->splash, error, error_size);
 }
 
 static void close_state(shot *s, void *state)
@@ -127,6 +141,9 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.pile_max_s = (float)from->pile_max_s;
     settings.pile_max_m = (float)from->pile_max_m;
     settings.dot_min_mm = (float)from->dot_min_mm;
+    settings.drip_min_mm = (float)from->drips.min_mm;
+    settings.drip_max_mm = (float)from->drips.max_mm;
+    settings.drip_wet = from->drips.wet;
     settings.gain = (float)from->gain;
     settings.light_gain = (float)from->light_gain;
     settings.min_width_px = (float)from->min_width_px;
@@ -259,11 +276,21 @@ static void write_spray(const virga_splash_stats *now, jsonl *stats)
     jsonl_end(stats);
 }
 
+/* Rain that has drained to edges: fell + on_surfaces, to the last nanolitre. What fell is part of spray_ul. */
+static void write_drips(const virga_splash_stats *now, jsonl *stats)
+{
+    jsonl_begin_object(stats, "drips");
+    jsonl_uint64(stats, "drops", now->drips);
+    jsonl_number(stats, "rain_ul", (double)now->drip_rain_nl * 1e-3);
+    jsonl_number(stats, "fell_ul", (double)now->drip_nl * 1e-3);
+    jsonl_number(stats, "on_surfaces_ul", (double)(now->drip_rain_nl - now->drip_nl) * 1e-3);
+    jsonl_end(stats);
+}
+
 static void write_stats(shot *s, void *state, jsonl *stats)
 {
     const splash_state *p = state;
     virga_splash_stats now;
-    (void)s;
     if (!p->splash)
         return;
     virga_splash_stats_get(p->splash, &now);
@@ -280,6 +307,8 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "splashes_cut_short", now.splashes_cut_short);
     jsonl_uint64(stats, "sprites", now.sprites);
     write_spray(&now, stats);
+    if (scene_splash_of(s->scene)->drips.on)
+        write_drips(&now, stats);
     jsonl_end(stats);
 }
 
@@ -320,6 +349,7 @@ const tool_effect splash_effect = {
     TOOL_EFFECT(splash, "Splashes"),
     .scene = {.group = SCENE_GROUP(scene_splash, splash_section), .check = check_splash},
     TOOL_USED_IF(is_used, "splashes; expected splash.on: true"),
+    .read_mesh = tool_drips_read_mesh,
     .apply = apply,
     .prepare = prepare,
     .points = &points,

@@ -11,6 +11,15 @@ extern "C" {
 typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYSICAL } scene_splash_mode;
 typedef enum scene_splash_style { SCENE_SPLASH_STYLE_PAPER, SCENE_SPLASH_STYLE_FILM } scene_splash_style;
 
+/* Edges from which rain drips. */
+typedef struct scene_splash_drips {
+    bool on;
+    double reach_m;
+    double min_mm, max_mm;
+    bool wet;
+    uint32_t max_sites;
+} scene_splash_drips;
+
 typedef struct scene_splash {
     bool on;        /* needs the ground to be on too */
     uint32_t mode;  /* scene_splash_mode */
@@ -21,6 +30,7 @@ typedef struct scene_splash {
     double pile_max_s, pile_max_m;
     double dot_min_mm;
     double gain, light_gain, min_width_px, soft_m, near_fade_m, parts_px;
+    scene_splash_drips drips;
 } scene_splash;
 
 /* The splashes of a scene. */

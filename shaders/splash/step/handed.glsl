@@ -1,7 +1,11 @@
 // handed.glsl - the list of droplets that water hands over.
 #include "shared/handed_droplet.h"
 
-layout(scalar, set = 0, binding = 21) buffer Handed
+#ifndef HANDED_BINDING
+#define HANDED_BINDING 21
+#endif
+
+layout(scalar, set = 0, binding = HANDED_BINDING) buffer Handed
 {
     virga_handed_droplets_gpu handed_head;
     virga_handed_droplet_gpu handed[];

@@ -27,21 +27,39 @@ bool shot_add_mesh(shot *s, bool stops_rain, char *error, size_t error_size)
     return !s->renderer || host_renderer_add(s->renderer, mesh, error, error_size);
 }
 
+static bool read_mesh(shot *s, const host_vertex *vertices, const uint32_t *indices, char *error, size_t error_size)
+{
+    for (uint32_t k = 0; tool_effects[k]; k++)
+        if (tool_effects[k]->read_mesh &&
+            !tool_effects[k]->read_mesh(s, &s->meshes[s->meshes_loaded - 1], vertices, indices, error, error_size))
+            return false;
+    return true;
+}
+
+static bool load_mesh(shot *s, uint32_t i, char *error, size_t error_size)
+{
+    float transform[12];
+    host_vertex *vertices;
+    uint32_t *indices;
+    shot_mesh_transform(&s->scene->meshes[i], transform);
+    if (!shot_blame_input(s, host_mesh_load_kept(&s->device, s->scene->meshes[i].file, transform, &s->meshes[i],
+                                                 &vertices, &indices, error, error_size)))
+        return false;
+    const bool ok = shot_add_mesh(s, true, error, error_size) && read_mesh(s, vertices, indices, error, error_size);
+    free(vertices);
+    free(indices);
+    return ok;
+}
+
 bool shot_load_meshes(shot *s, char *error, size_t error_size)
 {
     s->meshes = calloc(s->scene->mesh_count + plate_ground_meshes(s) + 1, sizeof *s->meshes);
     s->occluders = calloc(SHOT_MAX_OCCLUDERS, sizeof *s->occluders);
     if (!s->meshes || !s->occluders)
         return host_fail(error, error_size, "no memory for meshes");
-    for (uint32_t i = 0; i < s->scene->mesh_count; i++) {
-        float transform[12];
-        shot_mesh_transform(&s->scene->meshes[i], transform);
-        const char *path = s->scene->meshes[i].file;
-        if (!shot_blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
+    for (uint32_t i = 0; i < s->scene->mesh_count; i++)
+        if (!load_mesh(s, i, error, error_size))
             return false;
-        if (!shot_add_mesh(s, true, error, error_size))
-            return false;
-    }
     return plate_ground_load_meshes(s, error, error_size);
 }
 

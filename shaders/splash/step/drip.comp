@@ -1,0 +1,148 @@
+// drip.comp - rain water that drains to edges, hangs there and falls as drops: they go into the list of droplets that
+// are handed over, behind those that are there. What finds no room stays where it is.
+//
+// All ticks of a step at once. Every site is stepped twice: to count its drops, and to write them behind those of the
+// sites before it.
+// One workgroup, in which each invocation takes a run of sites. Reads: sites. Writes: their water, the list, counts.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "counters.glsl"
+#define HANDED_BINDING 1
+#include "handed.glsl"
+#include "shared/drip_gpu.h"
+#define SOFTWARE_LANES VIRGA_SPLASH_LANES
+#include "gpu/long_scan.glsl"
+
+layout(scalar, set = 0, binding = 2) readonly buffer Sites { virga_drip_site_gpu sites[]; };
+layout(scalar, set = 0, binding = 3) buffer Drips { virga_drip_gpu drips[]; };
+
+#define MAX_FILM_NL 4000000000u
+#define MAX_HANG_NL 1000000000u
+#define MAX_DROPS   4u   // of a site in a tick
+#define SHOWN_S     0.15 // drops are seen as soon as they fall: see CLEAR_S in splash/draw/sprite.glsl
+
+// A whole number whose mean is the value.
+uint whole(float value, uint hash) { return uint(min(floor(value + virga_unit(hash)), 4294967040.0)); }
+
+// Sizes are uniform between the two ends.
+float diameter_of(uint seed, uint number)
+{
+    return mix(tick.drip_m[0], tick.drip_m[1], virga_unit(virga_hash3(seed, number, 1u)));
+}
+
+uint water_of(float diameter_m)
+{
+    const float mm = 1e3 * diameter_m;
+    return uint(523.598776 * mm * mm * mm); // pi / 6, in nl for 1 mm
+}
+
+// Before its first tick: as dry, or with the film that this rain keeps up, and with a part of a drop, so that sites do
+// not drip at the same time.
+virga_drip_gpu begin_drip(virga_drip_site_gpu site)
+{
+    const float inflow = site.catch_m2 * tick.drip_nl / tick.tick_s;
+    const bool wet = tick.drip_wet != 0u && inflow > 0.0;
+    virga_drip_gpu drip = virga_drip_gpu(0u, 0u, 0u, 1u);
+    if (wet) {
+        drip.film_nl = uint(min(pow(inflow / site.drain, 1.0 / 3.0), 0.5 * float(MAX_FILM_NL)));
+        drip.hang_nl = uint(virga_unit(virga_hash1(site.seed)) * float(water_of(diameter_of(site.seed, 0u))));
+    }
+    return drip;
+}
+
+// A drop that fell `age_s` before the end of the step, from rest. In this short time the air hardly slows it down.
+void write_drop(uint index, virga_drip_site_gpu site, uint number, float age_s)
+{
+    const float diameter_m = diameter_of(site.seed, number), late_s = age_s + tick.handed_late_s;
+    vec3 position = to_vec(site.position) + to_vec(tick.drip_offset);
+    position.y -= 0.5 * diameter_m + 0.5 * GRAVITY * late_s * late_s;
+    virga_handed_droplet_gpu drop;
+    drop.position = float[3](position.x, position.y, position.z);
+    drop.age_s = SHOWN_S + late_s;
+    drop.velocity = float[3](0.0, -GRAVITY * late_s, 0.0);
+    drop.diameter_m = diameter_m;
+    drop.id = virga_hash2(site.seed, number);
+    drop.number = 0u;
+    drop.water_nl = water_of(diameter_m);
+    drop.drops = 1.0;
+    handed[index] = drop;
+}
+
+// Water of a tick: rain to the film, film to the edge. Returns what reached the edge.
+uint drain(virga_drip_site_gpu site, uint number, inout virga_drip_gpu drip, inout uint caught)
+{
+    const uint hash = virga_hash3(site.seed, number, 0u);
+    const uint rain = whole(site.catch_m2 * tick.drip_nl, hash);
+    const uint kept = min(rain, MAX_FILM_NL - drip.film_nl);
+    const float film = float(drip.film_nl + kept);
+    const float rate = site.drain * film * film * film;
+    const uint out_nl = drip.hang_nl < MAX_HANG_NL ? min(whole(rate * tick.tick_s, virga_hash1(hash)), uint(film)) : 0u;
+    const uint left = min(out_nl, drip.film_nl + kept);
+    caught += kept; // beyond a film of litres nothing stays
+    drip.film_nl += kept - left;
+    drip.hang_nl += left;
+    return left;
+}
+
+// All ticks of a step. `last`: drops are written from `index` on, as far as there is room. Returns their number.
+uint step_site(uint i, bool last, uint room, inout uint index, inout uvec2 water)
+{
+    const virga_drip_site_gpu site = sites[i];
+    virga_drip_gpu drip = drips[i];
+    uint fell = 0u, caught = 0u;
+    if (drip.begun == 0u) {
+        drip = begin_drip(site);
+        caught = drip.film_nl + drip.hang_nl;
+    }
+    for (uint t = 0u; t < tick.tick_in_step; t++) {
+        const uint came = drain(site, tick.tick - tick.tick_in_step + t, drip, caught);
+        for (uint k = 0u; k < MAX_DROPS; k++) {
+            const uint size = water_of(diameter_of(site.seed, drip.drops));
+            if (drip.hang_nl < size || (last && index >= room))
+                break;
+            drip.hang_nl -= size;
+            // It fell when there was enough for it: the rest came later in the tick.
+            const float rest = clamp(float(drip.hang_nl) / float(max(came, 1u)), 0.0, 1.0);
+            if (last) {
+                write_drop(index++, site, drip.drops, (float(tick.tick_in_step - 1u - t) + rest) * tick.tick_s);
+                water.y += size;
+            }
+            drip.drops++;
+            fell++;
+        }
+    }
+    if (last) {
+        drips[i] = drip;
+        water.x += caught;
+    }
+    return fell;
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, run = (tick.drip_sites + SCAN_LANES - 1u) / SCAN_LANES;
+    const uint begin = min(lane * run, tick.drip_sites), end = min(begin + run, tick.drip_sites);
+    // Splashes of this step may have taken slots since the list got its capacity.
+    const uint free_slots = tick.max_droplets - state.staying;
+    const uint before = handed_count(), room = min(min(handed_head.capacity, tick.max_handed), free_slots);
+    uint fell = 0u, index = 0u;
+    uvec2 all = uvec2(0u);
+    for (uint pass = 0u; pass < 2u; pass++) {
+        if (pass == 1u)
+            index = before + scan_group(uvec2(fell, 0u), all).x;
+        for (uint i = begin; i < end; i++) {
+            uvec2 water = uvec2(0u);
+            fell += step_site(i, pass == 1u, room, index, water);
+            count(VIRGA_SPLASH_DRIP_IN, water.x);
+            count(VIRGA_SPLASH_DRIP_OUT, water.y);
+        }
+    }
+    if (lane != 0u)
+        return;
+    const uint total = min(before + all.x, max(room, before));
+    count(VIRGA_SPLASH_DRIPS, total - before);
+    handed_head.count = total;
+    handed_head.group_count = uint[3]((total + 63u) / 64u, 1u, 1u);
+}

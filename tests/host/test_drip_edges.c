@@ -1,0 +1,158 @@
+/* Places from which rain drips, of surfaces whose catchments are known. No device is needed. */
+#include "drip_edges.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define MAX_SITES 4096
+#define REACH_M   2.5
+
+static virga_drip_site sites[MAX_SITES];
+
+/* A level or tilted rectangle: heights at its low and at its high end of z. */
+typedef struct plate {
+    double low[2], high[2]; /* x and z */
+    double low_m, high_m;
+    bool ground;
+} plate;
+
+static void add_plate(host_drip_edges *edges, const plate *p)
+{
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_vertex vertices[4] = {0};
+    host_primitive primitive = {.index_count = 6, .ground = p->ground, .cover = 1};
+    const host_mesh mesh = {.primitives = &primitive, .primitive_count = 1};
+    for (int i = 0; i < 4; i++) {
+        const bool far_x = i == 1 || i == 2, far_z = i >= 2;
+        vertices[i].position[0] = (float)(far_x ? p->high[0] : p->low[0]);
+        vertices[i].position[1] = (float)(far_z ? p->high_m : p->low_m);
+        vertices[i].position[2] = (float)(far_z ? p->high[1] : p->low[1]);
+    }
+    host_drip_edges_add(edges, &mesh, vertices, indices);
+}
+
+static const plate street = {{-8, -8}, {8, 8}, 0, 0, true};
+
+/* Returns the number of places. */
+static uint32_t find(const plate *plates, uint32_t count, uint32_t capacity)
+{
+    const double center[2] = {0, 0};
+    uint32_t found = 0;
+    host_drip_edges *edges = host_drip_edges_begin(center, 6);
+    assert_non_null(edges);
+    for (uint32_t i = 0; i < count; i++)
+        add_plate(edges, &plates[i]);
+    memset(sites, 0, sizeof sites);
+    const uint32_t got = host_drip_edges_find(edges, REACH_M, sites, capacity, &found);
+    assert_int_equal(got, found < capacity ? found : capacity);
+    host_drip_edges_end(edges);
+    return got;
+}
+
+/* Level area that drains to the places within a box of x and z. */
+static double catchment(uint32_t count, const double low[2], const double high[2])
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double *at = sites[i].position_m;
+        if (at[0] >= low[0] && at[0] <= high[0] && at[2] >= low[1] && at[2] <= high[1])
+            sum += (double)sites[i].catch_m2;
+    }
+    return sum;
+}
+
+static const double all_low[2] = {-9, -9}, all_high[2] = {9, 9};
+
+/* 4 m wide, 1.5 m deep, falling by 0.6 m towards z = 1.5. */
+static void an_awning_drips_along_its_lower_edge(void **state)
+{
+    (void)state;
+    const plate plates[2] = {street, {{-2, 0}, {2, 1.5}, 3.1, 2.5, false}};
+    const uint32_t count = find(plates, 2, MAX_SITES);
+    const double edge_low[2] = {-2.05, 1.45}, edge_high[2] = {2.05, 1.6};
+    assert_float_equal(catchment(count, all_low, all_high), 6, 0.1);
+    assert_true(catchment(count, edge_low, edge_high) > 0.9 * 6);
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double *at = sites[i].position_m;
+        assert_float_equal(at[1], 3.1 - 0.4 * fmin(fmax(at[2], 0), 1.5), 0.03);
+        assert_float_equal((double)sites[i].slope, 0.4 / sqrt(1.16), 0.01);
+        assert_true(at[0] < -2 || at[0] > 2 || at[2] < 0 || at[2] > 1.5); /* outside of it */
+        most = fmax(most, (double)sites[i].catch_m2);
+    }
+    assert_true(most < 2.5 * 1.5 * 0.05); /* the water of one or two columns of cells */
+}
+
+static void a_level_slab_drips_all_around(void **state)
+{
+    (void)state;
+    const plate plates[2] = {street, {{-1, -1}, {1, 1}, 3, 3, false}};
+    const uint32_t count = find(plates, 2, MAX_SITES);
+    assert_float_equal(catchment(count, all_low, all_high), 4, 0.1);
+    for (int side = 0; side < 4; side++) {
+        const double x[4] = {1, -1.1, -1.1, -1.1}, z[4] = {-1.1, -1.1, 1, -1.1};
+        const double low[2] = {x[side], z[side]}, high[2] = {side == 1 ? -1 : 1.1, side == 3 ? -1 : 1.1};
+        assert_in_range((int64_t)(100 * catchment(count, low, high)), 70, 140); /* of 100 */
+    }
+}
+
+/* What falls on the upper one comes to the lower one, and from there to the street. */
+static void water_of_a_balcony_falls_on_the_awning_below(void **state)
+{
+    (void)state;
+    const plate plates[3] = {street, {{-2, 0}, {2, 1.5}, 3.1, 2.5, false}, {{-1, 0.1}, {1, 0.9}, 5, 4.9, false}};
+    const uint32_t count = find(plates, 3, MAX_SITES);
+    assert_float_equal(catchment(count, all_low, all_high), 6, 0.15);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(sites[i].position_m[1] < 3.2);
+}
+
+static void low_steps_and_places_without_ground_below_do_not_drip(void **state)
+{
+    (void)state;
+    const plate kerb[2] = {street, {{-1, -1}, {1, 1}, 0.15, 0.15, false}};
+    const plate alone = {{-1, -1}, {1, 1}, 3, 3, false};
+    assert_int_equal(find(kerb, 2, MAX_SITES), 0);
+    assert_int_equal(find(&alone, 1, MAX_SITES), 0);
+    assert_int_equal(find(&street, 1, MAX_SITES), 0);
+}
+
+/* 5 m deep: water runs farther than 2.5 m but for the strips along its sides. */
+static void roofs_have_gutters(void **state)
+{
+    (void)state;
+    const plate plates[2] = {street, {{-3, -2.5}, {3, 2.5}, 6, 4, false}};
+    const uint32_t count = find(plates, 2, MAX_SITES);
+    const double low[2] = {-2.8, 2.4}, high[2] = {2.8, 2.6};
+    assert_true(catchment(count, low, high) < 0.1);
+}
+
+static void where_places_are_many_those_with_most_water_are_kept(void **state)
+{
+    (void)state;
+    const plate plates[2] = {street, {{-2, 0}, {2, 1.5}, 3.1, 2.5, false}};
+    const uint32_t all = find(plates, 2, MAX_SITES);
+    const double sum = catchment(all, all_low, all_high);
+    assert_int_equal(find(plates, 2, 60), 60);
+    assert_true(catchment(60, all_low, all_high) > 60.0 / all * sum);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_awning_drips_along_its_lower_edge),
+        cmocka_unit_test(a_level_slab_drips_all_around),
+        cmocka_unit_test(water_of_a_balcony_falls_on_the_awning_below),
+        cmocka_unit_test(low_steps_and_places_without_ground_below_do_not_drip),
+        cmocka_unit_test(roofs_have_gutters),
+        cmocka_unit_test(where_places_are_many_those_with_most_water_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

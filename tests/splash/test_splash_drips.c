@@ -1,0 +1,259 @@
+/* Rain that drains to edges and falls as drops: against the law of a film in double precision, and counted to the
+ * nanolitre. */
+#include "splash_fixture.h"
+
+#include <math.h>
+
+#define SITES   256
+#define TICK_S  (1.0 / 60)
+#define RAIN    20.0f /* mm/h */
+#define GRAVITY 9.80665
+
+static splash_fixture f;
+static virga_drip_site sites[SITES];
+
+/* ---- edges that differ in everything */
+
+static void choose_sites(void)
+{
+    for (uint32_t i = 0; i < SITES; i++) {
+        const uint32_t hash = virga_hash2(5, i);
+        const double part[4] = {(double)virga_unit(hash), (double)virga_unit(virga_hash1(hash)),
+                                (double)virga_unit(virga_hash2(hash, 1)), (double)virga_unit(virga_hash2(hash, 2))};
+        sites[i] = (virga_drip_site){.position_m = {1000 + 4 * part[0], 2.5 + part[1], -2000 + 4 * part[2]},
+                                     .catch_m2 = (float)(0.003 * pow(30, part[3])),
+                                     .width_m = (float)(0.02 + 0.04 * part[0]),
+                                     .slope = (float)(0.02 + 0.5 * part[1])};
+    }
+}
+
+static void begin(bool wet, uint32_t max_handed)
+{
+    virga_splash_def def = splash_fixture_def();
+    def.max_drips = SITES;
+    def.max_handed = max_handed;
+    splash_fixture_open(&f, &def);
+    f.settings.drip_wet = wet;
+    REQUIRE(virga_splash_set(f.splash, &f.settings) == VIRGA_OK);
+    choose_sites();
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    f.camera[0] = 1000, f.camera[2] = -2000;
+    f.rain_mm_h = RAIN;
+}
+
+static void play(uint32_t ticks, uint32_t per_step)
+{
+    for (uint32_t i = 0; i < ticks; i += per_step)
+        splash_fixture_step(&f, per_step);
+}
+
+/* Water of all sites, in nl. */
+static uint64_t on_surfaces(void)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < SITES; i++)
+        sum += f.drips[i].film_nl + (uint64_t)f.drips[i].hang_nl;
+    return sum;
+}
+
+/* nl/s over the edge from a film of n nl, see engine/splash/splash_drips.c. */
+static double flow_of(const virga_drip_site *site, double film_nl)
+{
+    const double volume_m3 = film_nl * 1e-12, area = (double)site->catch_m2;
+    return (double)site->width_m * GRAVITY * (double)site->slope / (3 * 1.0e-6) * pow(4 * volume_m3 / (3 * area), 3) *
+           1e12;
+}
+
+static double inflow_of(const virga_drip_site *site)
+{
+    return (double)site->catch_m2 * (double)RAIN / 3600 * 1e9; /* nl/s */
+}
+
+/* ---- tests */
+
+static void assert_counted(void)
+{
+    const uint64_t in = splash_fixture_count(&f, VIRGA_SPLASH_DRIP_IN),
+                   out = splash_fixture_count(&f, VIRGA_SPLASH_DRIP_OUT);
+    assert_int_equal(in, on_surfaces() + out);
+    assert_int_equal(out, splash_fixture_count(&f, VIRGA_SPLASH_SPRAY_IN));
+}
+
+static void rain_that_drains_is_film_hanging_drops_and_drops_that_fell(void **state)
+{
+    (void)state;
+    begin(true, 4096);
+    for (uint32_t i = 0; i < 60; i++) {
+        f.rain_mm_h = i % 20 < 10 ? 150 : 0;
+        splash_fixture_step(&f, virga_hash2(3, i) % 9);
+        assert_counted();
+    }
+    virga_splash_stats stats;
+    virga_splash_stats_get(f.splash, &stats);
+    assert_int_equal(stats.drip_rain_nl, splash_fixture_count(&f, VIRGA_SPLASH_DRIP_IN));
+    assert_int_equal(stats.drip_nl, splash_fixture_count(&f, VIRGA_SPLASH_DRIP_OUT));
+    assert_in_range(stats.drips, 1000, 100000);
+    splash_fixture_close(&f);
+}
+
+/* Room for 16 drops in a step, where some hundred would fall. */
+static void drops_without_room_hang_until_there_is_some(void **state)
+{
+    (void)state;
+    begin(true, 16);
+    f.rain_mm_h = 150;
+    splash_fixture_step(&f, 4); /* after this one there is room */
+    for (uint32_t i = 0; i < 40; i++) {
+        const uint64_t before = splash_fixture_count(&f, VIRGA_SPLASH_DRIPS);
+        splash_fixture_step(&f, 4);
+        assert_in_range(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before, 16, 16);
+        assert_counted();
+    }
+    splash_fixture_close(&f);
+}
+
+/* From a dry surface, for a minute: Euler's method with the same ticks, in double precision. The passes round to whole
+ * nanolitres at random. */
+static void a_film_grows_and_drains_as_in_double_precision(void **state)
+{
+    (void)state;
+    double film[SITES] = {0};
+    begin(false, 4096);
+    for (uint32_t tick = 0; tick < 3600; tick++)
+        for (uint32_t i = 0; i < SITES; i++) {
+            film[i] += (tick < 2400 ? inflow_of(&sites[i]) : 0) * TICK_S;
+            film[i] -= fmin(flow_of(&sites[i], film[i]) * TICK_S, film[i]);
+        }
+    play(2400, 15);
+    f.rain_mm_h = 0;
+    play(1200, 15);
+    for (uint32_t i = 0; i < SITES; i++)
+        assert_float_equal((double)f.drips[i].film_nl / film[i], 1, 2e-3);
+    splash_fixture_close(&f);
+}
+
+static void in_steady_rain_an_edge_drips_what_it_gets(void **state)
+{
+    (void)state;
+    const double time_s = 20, largest_nl = 523.6 * 125;
+    begin(true, 4096);
+    play(1200, 15);
+    for (uint32_t i = 0; i < SITES; i++) {
+        const virga_drip_gpu *drip = &f.drips[i];
+        const double steady = cbrt(inflow_of(&sites[i]) / flow_of(&sites[i], 1));
+        assert_float_equal((double)drip->film_nl / steady, 1, 0.01);
+        /* Drops of 3 to 5 mm have (3^4 - 5^4) / (4 (3 - 5)) = 68 mm^3 pi / 6 in the mean. */
+        const double drops = inflow_of(&sites[i]) * time_s / (523.6 * 68);
+        assert_true(fabs(drip->drops - drops) < 1 + 4 * sqrt(drops) * 0.45);
+        assert_true((double)drip->hang_nl < largest_nl);
+    }
+    splash_fixture_close(&f);
+}
+
+/* Every drop in the air is below a site of its own, as far as it falls in its age, and has the speed of that. Air takes
+ * less than 4 % of the speed in 0.25 s. */
+static void drops_fall_from_their_edges(void **state)
+{
+    (void)state;
+    begin(true, 4096);
+    uint32_t found = 0;
+    for (uint32_t step = 0; step < 16; step++) {
+        splash_fixture_step(&f, 1 + step % 5);
+        for (uint32_t i = 0; i < f.state->staying; i++) {
+            const virga_droplet_gpu *drop = &f.droplets[i];
+            const double fell_s = (double)drop->age_s - 0.15;
+            double nearest = 1e9, below = 0;
+            for (uint32_t k = 0; k < SITES; k++) {
+                const double x = (double)drop->position[0] + f.splash->anchor_m[0] - sites[k].position_m[0],
+                             z = (double)drop->position[2] + f.splash->anchor_m[2] - sites[k].position_m[2];
+                if (hypot(x, z) < nearest) {
+                    nearest = hypot(x, z);
+                    below = sites[k].position_m[1] - (double)drop->position[1] - f.splash->anchor_m[1];
+                }
+            }
+            REQUIRE(nearest < 2e-3);
+            if (fell_s > 0.25)
+                continue;
+            assert_float_equal(below, 0.5 * (double)drop->diameter_m + 0.5 * GRAVITY * fell_s * fell_s, 0.02);
+            assert_float_equal((double)-drop->velocity[1], GRAVITY * fell_s, 0.04 * GRAVITY * 0.25 + 1e-3);
+            REQUIRE(drop->diameter_m >= 3e-3f && drop->diameter_m <= 5e-3f);
+            found++;
+        }
+    }
+    assert_true(found > 500);
+    splash_fixture_close(&f);
+}
+
+static uint32_t hash_of_waters(uint32_t per_step)
+{
+    uint32_t hash = 0;
+    begin(true, 4096);
+    play(240, per_step);
+    const uint32_t *words = (const uint32_t *)f.drips;
+    for (uint32_t i = 0; i < SITES * sizeof *f.drips / 4; i++)
+        hash = virga_hash2(hash, words[i]);
+    splash_fixture_close(&f);
+    return hash;
+}
+
+static void steps_of_any_length_give_the_same_bits(void **state)
+{
+    (void)state;
+    const uint32_t one = hash_of_waters(1);
+    assert_int_equal(hash_of_waters(1), one);
+    assert_int_equal(hash_of_waters(4), one);
+    assert_int_equal(hash_of_waters(15), one);
+}
+
+static void sites_may_move_and_become_fewer(void **state)
+{
+    (void)state;
+    begin(true, 4096);
+    play(16, 4);
+    for (uint32_t i = 0; i < SITES; i++)
+        sites[i].position_m[0] += 50;
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES / 2) == VIRGA_OK);
+    const virga_drip_gpu last = f.drips[SITES - 1];
+    play(60, 4);
+    assert_counted();
+    assert_memory_equal(&f.drips[SITES - 1], &last, sizeof last);
+    uint32_t moved = 0;
+    for (uint32_t i = 0; i < f.state->staying; i++)
+        moved += (double)f.droplets[i].position[0] + f.splash->anchor_m[0] > 1040;
+    assert_true(moved > 20);
+    splash_fixture_close(&f);
+}
+
+static void wrong_sites_are_refused(void **state)
+{
+    (void)state;
+    begin(true, 4096);
+    virga_splash *splash = f.splash;
+    assert_int_equal(virga_splash_set_drips(NULL, sites, 1), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_splash_set_drips(splash, NULL, 1), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES + 1), VIRGA_ERROR_INVALID);
+    sites[3].catch_m2 = 0;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    sites[3].catch_m2 = NAN;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    choose_sites();
+    sites[3].position_m[1] = INFINITY;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_splash_set_drips(splash, NULL, 0), VIRGA_OK);
+    splash_fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rain_that_drains_is_film_hanging_drops_and_drops_that_fell),
+        cmocka_unit_test(drops_without_room_hang_until_there_is_some),
+        cmocka_unit_test(a_film_grows_and_drains_as_in_double_precision),
+        cmocka_unit_test(in_steady_rain_an_edge_drips_what_it_gets),
+        cmocka_unit_test(drops_fall_from_their_edges),
+        cmocka_unit_test(steps_of_any_length_give_the_same_bits),
+        cmocka_unit_test(sites_may_move_and_become_fewer),
+        cmocka_unit_test(wrong_sites_are_refused),
+    };
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
+}
