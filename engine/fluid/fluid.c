@@ -108,10 +108,9 @@ static const virga_effect_buffer buffers[] = {
      .count = COUNT_PARTICLES, .first = VIRGA_FIRST_FILL},
     {"fluid.pressures", AT(slot_pressures), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PRESSURES,
      .first = VIRGA_FIRST_FILL},
-    {"fluid.positions", AT(positions), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.moved", AT(moved), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.walls", AT(walls), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
-    {"fluid.solved", AT(solved), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
+    {"fluid.solved", AT(solved), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PARTICLES},
     {"fluid.bodies", AT(body_states), VIRGA_USE_STORAGE, DEVICE,
      .head = VIRGA_FLUID_MAX_BODIES * sizeof(virga_fluid_body_gpu), .entry = 4, .count = COUNT_CONTACTS,
      .first = VIRGA_FIRST_FILL},
@@ -120,6 +119,7 @@ static const virga_effect_buffer buffers[] = {
     {"fluid.exchange", AT(exchange), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_exchange_gpu),
      .entry = sizeof(virga_exchanged_gpu), .count = COUNT_ENTRIES, .first = VIRGA_FIRST_FILL},
     {"fluid.lists", AT(lists), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_LIST_TEXELS},
+    {"fluid.gradients", AT(gradients), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_LIST_TEXELS},
 };
 
 static const virga_effect_ring rings[] = {
@@ -152,13 +152,13 @@ static const virga_binding_kind bindings[] = {
     BUFFER(slot_pressures),                            /* 8 */
     BUFFER(solved),                                    /* 9 */
     BUFFER(grid.sorted_velocities),                    /* 10 */
-    BUFFER(positions),                                 /* 11 */
+    BUFFER(gradients),                                 /* 11 */
     BUFFER(moved),                                     /* 12 */
     BUFFER(walls),                                     /* 13 */
     BUFFER(lists),                                     /* 14 */
     TEXEL_BUFFER(grid.sorted),                         /* 15 */
     TEXEL_BUFFER(grid.sorted_velocities),              /* 16 */
-    TEXEL_BUFFER(positions),                           /* 17 */
+    TEXEL_BUFFER(gradients),                           /* 17 */
     TEXEL_BUFFER(moved),                               /* 18 */
     TEXEL_BUFFER(walls),                               /* 19 */
     TEXEL_BUFFER(lists),                               /* 20 */
@@ -200,8 +200,6 @@ static const virga_effect_pass passes[] = {
     STEP_PASS(neighbours),
     STEP_PASS(push),
     STEP_PASS(correct),
-    STEP_PASS(check),
-    STEP_PASS(forces),
     STEP_PASS(body_contacts),
     STEP_PASS(body_push),
     STEP_PASS(body_move),

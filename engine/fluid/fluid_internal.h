@@ -85,11 +85,11 @@ struct virga_fluid {
     virga_buffer *map_upload; /* until the device has them */
 
     particle_grid grid;
-    virga_buffer *state, *slots, *slot_pressures, *positions, *moved, *walls, *solved, *lists, *body_states, *touches,
+    virga_buffer *state, *slots, *slot_pressures, *moved, *walls, *solved, *lists, *gradients, *body_states, *touches,
         *maps, *exchange;
     virga_ring step_ring, add_ring, shape_ring;
     virga_bindings *add_bindings, *bindings, *exchange_bindings;
-    virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;
+    virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *advance;
     virga_pipeline *exchange_spray, *exchange_in, *exchange_out;
     virga_pipeline *body_contacts, *body_push, *body_move, *body_hit, *body_near;
     virga_fluid_stats stats;

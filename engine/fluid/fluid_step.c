@@ -179,7 +179,6 @@ static void solve(const recording *r)
         run(r, fluid->push, LOOP);
         run_bodies(r, fluid->body_push, LOOP_BODIES);
         run(r, fluid->correct, LOOP);
-        run(r, fluid->check, offsetof(virga_fluid_state_gpu, loop_one_group));
     }
     virga_pass_end(r->context, r->cmd, scope);
 }
@@ -197,7 +196,6 @@ static void substep(const recording *r)
     sort(r);
     run_named(r, "fluid.neighbours", fluid->neighbours);
     run_bodies(r, fluid->body_contacts, BODIES);
-    run_named(r, "fluid.forces", fluid->forces);
     solve(r);
     run_bodies(r, fluid->body_move, BODIES);
     run_named(r, "fluid.advance", fluid->advance);

@@ -47,7 +47,7 @@ static void over_cells(virga_context *context, VkCommandBuffer cmd, const partic
 static void sum_up(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
 {
     over_cells(context, cmd, grid, grid->sums, offsetof(virga_particle_grid_gpu, scan_groups));
-    virga_dispatch_and_barrier(context, cmd, grid->scan, 1);
+    over_cells(context, cmd, grid, grid->scan, offsetof(virga_particle_grid_gpu, scan_groups));
     over_cells(context, cmd, grid, grid->offsets, offsetof(virga_particle_grid_gpu, scan_groups));
 }
 

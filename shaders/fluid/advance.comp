@@ -4,7 +4,9 @@
 //
 //     P_i = 1/3 (sum_j (p_i + p_j) / 2 V |x_ij . grad W| + p_i (the walls' part of this sum)).
 //
-// One invocation per sorted particle. Reads: moved, positions, sorted, lists, solved, bodies, maps. Writes: particles,
+// The host sees that of the last substep only.
+//
+// One invocation per sorted particle. Reads: moved, sorted, lists, solved, bodies, maps. Writes: particles,
 // slot_pressures, touches, state.max_speed2.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -16,6 +18,7 @@
 #include "fluid.glsl"
 #include "bodies.glsl"
 #include "kernel.glsl"
+#include "pairs.glsl"
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
 
@@ -28,19 +31,19 @@ shared uint group_speed2;
 vec4 own;
 float sum;
 
-void pair(uint j)
+void pair(uint first)
 {
-    const vec4 other = place_at(j);
+    const vec4 other = place_at(pair_index(first));
     const vec3 apart = own.xyz - other.xyz;
     const float r2 = dot(apart, apart);
     sum -= (own.w + other.w) * slope(r2) * r2;
 }
 
-float mean_pressure(uint i, float wall_pull)
+float mean_pressure(uint i, float word)
 {
     own = place_at(i);
     sum = 0.0;
-    const uint texels = uint(sorted_at(i).w);
+    const uint texels = state.time_left_s > 0.0 ? 0u : solved_texels(word);
     for (uint t = 0u, at = i; t < texels; t++, at += frame.stride) {
         const uvec4 four = list_texel(at);
         pair(four.x);
@@ -48,7 +51,7 @@ float mean_pressure(uint i, float wall_pull)
         pair(four.z);
         pair(four.w);
     }
-    return (0.5 * KERNEL_FACTOR * sum + own.w * wall_pull) / 3.0;
+    return (0.5 * KERNEL_FACTOR * sum + own.w * solved_wall_pull(word)) / 3.0;
 }
 
 // A particle that came into a body is put back to its surface, and loses the velocity into it. The body gets that.
@@ -111,9 +114,9 @@ void main()
         group_speed2 = 0u;
     barrier();
     if (i < grid.sorted) {
-        const vec4 velocity = moved_at(i);
-        slot_pressures[sorted_indices[i]] = vec2(mean_pressure(i, velocity.w), solved[i]);
-        atomicMax(group_speed2, floatBitsToUint(advance(i, velocity.xyz)));
+        const vec2 own_solved = solved[i];
+        slot_pressures[sorted_indices[i]] = vec2(mean_pressure(i, own_solved.y), own_solved.x);
+        atomicMax(group_speed2, floatBitsToUint(advance(i, moved_at(i).xyz)));
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u)

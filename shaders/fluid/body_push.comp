@@ -1,6 +1,6 @@
 // body_push.comp - the velocity of a body that the pressures lead to: that without them, and the pushes of all
 // particles that touch it. What push.comp is for particles.
-// One workgroup per body. Reads: contacts, touches, positions, sorted. Writes: bodies.
+// One workgroup per body. Reads: contacts, touches, sorted. Writes: bodies.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
-// neighbours.comp - lists the neighbours of each particle, and sums up what only positions decide: the density, the
-// gradient of the walls' part of it, and alpha, how much pressure a change of density asks for (Bender and Koschier
-// 2017, equation 9).
+// neighbours.comp - lists the neighbours of each particle, and sums up what does not depend on its pressure: the
+// density, the gradient of the walls' part of it, alpha, how much pressure a change of density asks for (Bender and
+// Koschier 2017, equation 9), and the velocity to which gravity and viscosity lead.
 //
 // A pressure p_i / rho accelerates particle i by -p_i (sum_j g_ij + G_i) and each neighbour j by p_i g_ij, where g_ij
 // is the gradient of V W at i, and G_i that of the walls' part. In a substep dt this changes the density of i by -p_i
@@ -12,21 +12,27 @@
 // |G|^2 m / M. All particles around the body do so at once, and in the worst case in step. Theirs are as many as the
 // body's area has squares of a spacing, which is what `response` has: m / M times this number.
 //
-// The velocities are not needed as they were: in their place stands gravity, less what walls and bodies carry of it.
+// Gravity is less what walls and bodies carry of it. Viscosity is that of Monaghan (2005, Smoothed Particle
+// Hydrodynamics, Reports on Progress in Physics 68), which keeps momentum and angular momentum: 10 nu sum_j V (v_ij .
+// x_ij) / (x_ij^2 + 0.01 d^2) grad W. It is explicit, and so limited to what is stable in this substep.
 //
-// One invocation per sorted particle. Reads: sorted, positions, cell_starts, bodies, maps. Writes: lists, walls,
-// velocities, sorted.w, touches.
+// One invocation per sorted particle. Reads: sorted, moved (velocities before the substep), cell_starts, bodies, maps.
+// Writes: lists, gradients, walls, velocities, solved.y, touches.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#define GRID_ACCESS
 #define FLUID_ACCESS
+#define STATE_ACCESS readonly
 #define TOUCHES_ACCESS
 #include "fluid.glsl"
 #include "bodies.glsl"
 #include "kernel.glsl"
+#include "pairs.glsl"
 
 layout(local_size_x = VIRGA_FLUID_LANES) in;
+
+#define MAX_DIFFUSION 0.05 // nu dt / d^2
+#define MAX_NEIGHBOURS (4u * VIRGA_FLUID_LIST_TEXELS)
 
 // What decides how much of a particle's weight walls carry, see kernel.glsl.
 struct Weight {
@@ -97,68 +103,96 @@ float add_bodies(uint i, vec3 p, inout BoxWalls wall, inout Weight weight)
     return yielding;
 }
 
+// Which of up to 32 sorted particles from `first` on are neighbours, as bits.
+uint near_bits(uint i, vec3 here, uint first, uint end)
+{
+    uint bits = 0u;
+    const uint count = min(end - first, 32u);
+    for (uint k = 0u; k < count; k++) {
+        const vec3 apart = here - place_at(first + k).xyz;
+        bits |= dot(apart, apart) < 4.0 ? 1u << k : 0u;
+    }
+    const uint own = i - first;
+    return own < 32u ? bits & ~(1u << own) : bits;
+}
+
 // Lists the neighbours of a particle, four in a texel; the last texel is filled up with the particle itself. Returns
-// their number. Seven of eight particles in the cells around are too far away, so nothing else is done here: lanes of a
-// group would wait for each other.
+// their number. Seven of eight particles in the cells around are too far away. So these are first only marked: lanes of
+// a group would wait for each other wherever one of them does more, and they store where any of them has a neighbour.
 uint list_neighbours(uint i, vec3 here)
 {
     const uvec3 dims = grid_dims();
-    const uint cell = cell_at(to_vec(particles[sorted_indices[i]].position));
+    const uint cell = cell_at(to_vec(particles[sorted_indices[i]].position)), stride = frame.stride;
     uvec4 four = uvec4(i);
     uint count = 0u;
     for (uint row = 0u; row < 9u; row++) {
         const uvec2 run = neighbour_row(cell, row, dims);
-        for (uint j = run.x; j < run.y; j++) {
-            const vec3 apart = here - place_at(j).xyz;
-            if (dot(apart, apart) >= 4.0 || j == i || count >= 4u * VIRGA_FLUID_LIST_TEXELS)
-                continue;
-            four = uvec4(four.yzw, j);
-            count++;
-            if ((count & 3u) == 0u) {
-                lists[(count / 4u - 1u) * frame.stride + i] = four;
+        for (uint first = run.x; first < run.y; first += 32u) {
+            uint bits = near_bits(i, here, first, run.y);
+            for (; bits != 0u && count < MAX_NEIGHBOURS; bits &= bits - 1u) {
+                four = uvec4(four.yzw, first + uint(findLSB(bits)));
+                count++;
+                if ((count & 3u) != 0u)
+                    continue;
+                lists[(count / 4u - 1u) * stride + i] = four;
                 four = uvec4(i);
             }
         }
     }
     if ((count & 3u) != 0u)
-        lists[count / 4u * frame.stride + i] = four;
+        lists[count / 4u * stride + i] = four;
     return count;
 }
 
+float dt;
 vec4 place;
 float density, squares;
-vec3 sum, rise;
+vec3 velocity, sum, rise, drag;
 
-void add(uint i, uint j)
+// Adds a neighbour, and returns its words. The particle itself adds nothing.
+uvec2 add(uint i, uint j)
 {
     const vec4 other = place_at(j);
     const vec3 apart = place.xyz - other.xyz;
-    const float r2 = dot(apart, apart), s = slope(r2); // 0 for the particle itself
+    const float r2 = dot(apart, apart);
+    const vec3 gradient = slope(r2) * apart;
     density += j == i ? 0.0 : kernel(sqrt(r2));
-    sum += s * apart;
-    rise += ((other.w - place.w) * s) * apart;
-    squares += s * s * r2;
+    sum += gradient;
+    rise += (other.w - place.w) * gradient;
+    squares += dot(gradient, gradient);
+    drag += dot(velocity - moved_at(j).xyz, apart) / (r2 + 0.01) * gradient;
+    return pair_words(j, gradient);
 }
 
 void add_neighbours(uint i, uint texels)
 {
     density = squares = 0.0;
-    sum = rise = vec3(0.0);
-    for (uint t = 0u, at = i; t < texels; t++, at += frame.stride) {
+    sum = rise = drag = vec3(0.0);
+    const uint stride = frame.stride;
+    for (uint t = 0u, at = i; t < texels; t++, at += stride) {
         const uvec4 four = lists[at];
-        add(i, four.x);
-        add(i, four.y);
-        add(i, four.z);
-        add(i, four.w);
+        const uvec2 x = add(i, four.x), y = add(i, four.y), z = add(i, four.z), w = add(i, four.w);
+        lists[at] = uvec4(x.x, y.x, z.x, w.x);
+        gradients[at] = uvec4(x.y, y.y, z.y, w.y);
     }
+}
+
+// The velocity after the substep without pressure.
+vec3 free_velocity(vec3 gravity)
+{
+    const float diffusion = min(dt * frame.viscosity_m2_s * frame.inv_spacing_m * frame.inv_spacing_m,
+                                MAX_DIFFUSION);
+    return velocity + dt * gravity + (10.0 * KERNEL_FACTOR * diffusion) * drag;
 }
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
+    dt = state.dt_s; // read before the branch, see push.comp
     if (i >= grid.sorted)
         return;
     place = place_at(i);
+    velocity = moved_at(i).xyz;
     const vec3 here = place.xyz;
     const uint texels = (list_neighbours(i, here) + 3u) / 4u;
     add_neighbours(i, texels);
@@ -172,7 +206,6 @@ void main()
     sum = KERNEL_FACTOR * sum + wall.gradient;
     const float inverse = dot(sum, sum) + KERNEL_FACTOR * KERNEL_FACTOR * squares + yielding;
     walls[i] = vec4(wall.gradient, inverse > 1e-6 ? 1.0 / inverse : 0.0);
-    velocities[i] = vec4(weight.gravity, KERNEL_SELF + density + wall.density);
-    sorted[i] = vec4(here, float(texels));
-    moved[i].w = wall.pull;
+    velocities[i] = vec4(free_velocity(weight.gravity), KERNEL_SELF + density + wall.density);
+    solved[i].y = solved_word(texels, wall.pull);
 }

@@ -1,5 +1,6 @@
 // scan.comp - prefix sum of the cells' counts, second part: over the sums of the workgroups.
-// One workgroup, in which each invocation takes a run of sums. Reads and writes: group_starts, the grid's state.
+// One workgroup, in which each invocation takes a run of sums. There may be others, so that it can be dispatched by the
+// same arguments as the parts before and after it, or not at all. Reads and writes: group_starts, the grid's state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +14,8 @@ layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {
+    if (gl_WorkGroupID.x != 0u)
+        return;
     const uint groups = grid.scan_groups[0];
     const uint each = (groups + VIRGA_GRID_LANES - 1u) / VIRGA_GRID_LANES;
     const uint first = min(gl_LocalInvocationIndex * each, groups), end = min(first + each, groups);

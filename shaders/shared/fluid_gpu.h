@@ -15,7 +15,7 @@ typedef struct virga_fluid_shapes_gpu virga_fluid_shapes_gpu;
 #endif
 
 #define VIRGA_FLUID_LANES       VIRGA_GRID_LANES
-#define VIRGA_FLUID_LIST_TEXELS 16 /* of four neighbours each, for every particle */
+#define VIRGA_FLUID_LIST_TEXELS 16 /* of four neighbours each, for every particle; see shaders/fluid/pairs.glsl */
 /* Sums of errors in fixed point: those of a workgroup, and those of all of them, which fit into 32 bits for two million
  * particles. */
 #define VIRGA_FLUID_ERROR_ONE   1048576.0
@@ -103,19 +103,19 @@ struct virga_fluid_add_gpu {
 
 /* Written by the passes of a step; read back as statistics. */
 struct virga_fluid_state_gpu {
-    float time_left_s;    /* of the step */
-    uint substeps;        /* of the step, with dt above 0 */
-    uint iterations;      /* of the step, all substeps */
-    float solver_error;   /* of the newest substep */
-    uint moved;           /* particles of the newest substep */
-    uint max_speed2;      /* bits of the largest speed squared (m^2/s^2), of all particles */
-    float dt_s;           /* of the substep */
-    uint error;           /* sum of an iteration, in fixed point */
-    uint iteration;       /* of the present loop */
-    uint slot_groups[3];  /* indirect arguments: an invocation for each slot; 0 after the last substep */
-    uint fluid_groups[3]; /* an invocation for each sorted particle */
-    uint loop_groups[3];  /* the same, 0 when iterations have ended */
-    uint loop_one_group[3];
+    float time_left_s;        /* of the step */
+    uint substeps;            /* of the step, with dt above 0 */
+    uint iterations;          /* of the step, all substeps */
+    float solver_error;       /* of the newest substep */
+    uint moved;               /* particles of the newest substep */
+    uint max_speed2;          /* bits of the largest speed squared (m^2/s^2), of all particles */
+    float dt_s;               /* of the substep */
+    uint error;               /* sum of an iteration, in fixed point */
+    uint iteration;           /* of the present loop */
+    uint groups_done;         /* workgroups of an iteration that have ended */
+    uint slot_groups[3];      /* indirect arguments: an invocation for each slot; 0 after the last substep */
+    uint fluid_groups[3];     /* an invocation for each sorted particle */
+    uint loop_groups[3];      /* the same, 0 when iterations have ended */
     uint body_groups[3];      /* a workgroup for each body */
     uint loop_body_groups[3]; /* the same, 0 when iterations have ended */
 };
@@ -124,7 +124,7 @@ struct virga_fluid_state_gpu {
 VIRGA_ASSERT_OFFSET(virga_fluid_step_gpu, spacing_m, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 176);
 VIRGA_ASSERT_SIZE(virga_fluid_add_gpu, 52);
-VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 108);
+VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 100);
 VIRGA_ASSERT_SIZE(virga_fluid_shape_gpu, 116);
 #undef uint
 #endif

@@ -40,15 +40,15 @@ typedef struct virga_fluid virga_fluid; /* opaque */
 typedef struct virga_fluid_def {
     uint32_t size, cookie;
 
-    /* [64; 2097152] particles; 408 bytes each. Default 65536. */
+    /* [64; 2097152] particles; 636 bytes each. Default 65536. */
     uint32_t max_particles;
 
     /* [4096; 16777216] cells of the neighbour grid, 8 bytes each. A cell is two spacings wide, and the grid has four
      * cells more than the box on each axis. Default 262144. */
     uint32_t max_cells;
 
-    /* [1; 64] substeps of a step. Each that is recorded and not needed costs about 0.5 ms on two cores of software
-     * Vulkan, most of it for the iterations that it might have had. Default 8. */
+    /* [1; 64] substeps of a step; see settings.cfl for how many are needed. Each that is recorded and not needed costs
+     * about 0.5 ms on two cores of software Vulkan, most of it for the iterations that it might have had. Default 8. */
     uint32_t max_substeps;
 
     /* [1; 100] iterations of the solver in a substep. Each that is recorded and not needed costs about 0.02 ms there.
@@ -95,7 +95,9 @@ typedef struct virga_fluid_settings {
      * calms the noise of particles. Limited to what is stable. Default 0.001. */
     float viscosity_m2_s;
 
-    /* [0.05; 1] how far a particle may move in a substep, in spacings. Default 0.4. */
+    /* [0.05; 1] how far a particle may move in a substep, in spacings. A substep takes cfl spacing_m / v, for the speed
+     * v of the fastest particle, or for v = sqrt(2 g spacing_m) if that is more. With bodies it takes cfl spacing_m /
+     * (v + sqrt(20 g spacing_m)), v being the speed of the fastest particle or driven body. Default 0.4. */
     float cfl;
 
     /* [0.000001; 0.01] at which mean error the iterations of the solver end: what the density would still grow by in a
