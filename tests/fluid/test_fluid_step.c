@@ -118,6 +118,98 @@ static void density_and_alpha_are_those_of_double_precision(void **state)
     fluid_fixture_close(&f);
 }
 
+/* Gradient of a pair as shaders/fluid/pairs.glsl packs it: 22 bits of an index, and three components of 14 bits. */
+static void unpack_pair(uint32_t first, uint32_t second, uint32_t *j, double gradient[3])
+{
+    const int32_t z = (int32_t)first >> 22;
+    *j = first & 0x3fffff;
+    gradient[0] = ((int32_t)(second << 18) >> 18) / 2047.0;
+    gradient[1] = ((int32_t)(second << 4) >> 18) / 2047.0;
+    gradient[2] = (z * 16 + (int32_t)(second >> 28)) / 2047.0;
+}
+
+/* The pairs of a particle: all that are nearer than two spacings, each once, with the gradient 4 pi V grad W. */
+static void check_pairs(const double (*p)[3], const uint32_t *indices, const uint32_t (*lists)[4],
+                        const uint32_t (*gradients)[4], uint32_t count, uint32_t i, uint32_t texels)
+{
+    const uint32_t stride = f.fluid->def.max_particles;
+    uint32_t found = 0, expected = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        double r2 = 0;
+        for (int axis = 0; axis < 3; axis++)
+            r2 += pow(p[indices[i]][axis] - p[k][axis], 2);
+        expected += k != indices[i] && r2 < 4;
+    }
+    for (uint32_t n = 0; n < 4 * texels; n++) {
+        uint32_t j;
+        double gradient[3], r = 0;
+        unpack_pair(lists[n / 4 * stride + i][n % 4], gradients[n / 4 * stride + i][n % 4], &j, gradient);
+        REQUIRE(j < count);
+        for (int axis = 0; axis < 3; axis++)
+            r += pow(p[indices[i]][axis] - p[indices[j]][axis], 2);
+        r = sqrt(r);
+        found += j != i;
+        for (int axis = 0; axis < 3; axis++) {
+            const double apart = p[indices[i]][axis] - p[indices[j]][axis];
+            assert_float_equal(gradient[axis], j == i ? 0 : 4 * M_PI * kernel_slope(r) * apart / r, 0.5 / 2047 + 2e-5);
+        }
+    }
+    assert_int_equal(found, expected);
+}
+
+static void pairs_are_those_of_double_precision(void **state)
+{
+    (void)state;
+    static double p[400][3];
+    host_buffer down = {0};
+    VkDeviceSize offset = 0;
+    fluid_fixture_open(&f);
+    fluid_fixture_box(&f, D, SIDE, SIDE, SIDE);
+    const uint32_t count = put_particles(p);
+    const virga_buffer *buffers[4] = {f.fluid->lists, f.fluid->gradients, f.fluid->solved,
+                                      f.fluid->grid.sorted_indices};
+    const void *read[4];
+    REQUIRE(host_buffer_create(&f.gpu.device, buffers[0]->size + buffers[1]->size + buffers[2]->size + buffers[3]->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "pairs down", &down, f.gpu.error,
+                               sizeof f.gpu.error));
+    REQUIRE(fluid_fixture_try(&f, 1e-4, count, false) == VIRGA_OK);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    effect_fixture_transfers(cmd);
+    for (int b = 0; b < 4; b++)
+        read[b] = effect_fixture_copy(cmd, buffers[b]->buffer, buffers[b]->size, &down, &offset);
+    effect_fixture_complete(&f.gpu, f.context);
+    host_buffer_invalidate(&f.gpu.device, &down);
+    const uint32_t(*solved)[2] = read[2];
+    for (uint32_t i = 0; i < count; i++)
+        check_pairs((const double(*)[3])p, read[3], read[0], read[1], count, i, solved[i][1] >> 16);
+    host_buffer_destroy(&f.gpu.device, &down);
+    fluid_fixture_close(&f);
+}
+
+/* Of a step, for water of this speed. */
+static uint32_t substeps_at(double speed, double dt)
+{
+    fluid_fixture_open(&f);
+    fluid_fixture_box(&f, 0.04, 0.8, 0.8, 0.4);
+    const virga_fluid_block block = {.high_m = {0.4f, 0.4f, 0.4f}, .velocity_m_s = {(float)speed, 0, 0}};
+    REQUIRE(virga_fluid_add(f.fluid, &block) == VIRGA_OK);
+    fluid_fixture_step(&f, dt);
+    const uint32_t substeps = f.stats.substeps;
+    fluid_fixture_close(&f);
+    return substeps;
+}
+
+/* With cfl = 0.4, 16 mm of this spacing. Water at rest counts as falling a spacing: 0.886 m/s. */
+static void the_speed_decides_on_the_substeps(void **state)
+{
+    (void)state;
+    assert_int_equal(substeps_at(0, 0.017), 1);
+    assert_int_equal(substeps_at(0, 0.019), 2);
+    assert_int_equal(substeps_at(1.5, 0.01), 1);
+    assert_int_equal(substeps_at(1.7, 0.01), 2);
+    assert_int_equal(substeps_at(4.7, 0.01), 3);
+}
+
 static uint64_t hash_of(const void *data, size_t size)
 {
     uint64_t hash = 14695981039346656037u;
@@ -167,6 +259,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_and_alpha_are_those_of_double_precision),
+        cmocka_unit_test(pairs_are_those_of_double_precision),
+        cmocka_unit_test(the_speed_decides_on_the_substeps),
         cmocka_unit_test(the_same_calls_give_the_same_bits),
         cmocka_unit_test(blocks_follow_each_other),
     };
