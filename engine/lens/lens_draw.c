@@ -545,6 +545,13 @@ static virga_result draw(virga_lens *lens, draw_call *to, uint32_t row, uint32_t
     return VIRGA_OK;
 }
 
+/* All is sharp, and there are no layers. The state of the command buffer changes as by any other draw. */
+static virga_result leave_as_it_is(virga_lens *lens, const draw_call *to)
+{
+    virga_pass_end(lens->base.context, to->cmd, begin_draw(lens, to, lens_draws[LENS_DRAW_TILES].name));
+    return VIRGA_OK;
+}
+
 /* Blends over the target what is out of focus, and layers. */
 static virga_result draw_in_place(virga_lens *lens, draw_call *to)
 {
@@ -560,7 +567,7 @@ static virga_result draw_in_place(virga_lens *lens, draw_call *to)
     const uint32_t many = seen->layers > 1 ? 2 : seen->layers;
     const uint32_t kinds = seen->all_sharp ? many > 0 : many ? VIRGA_LENS_TILE_KINDS : VIRGA_LENS_TILES_SHARP;
     if (!kinds)
-        return VIRGA_OK;
+        return leave_as_it_is(lens, to);
     const virga_pipeline *const *pipelines = seen->all_sharp ? pipelines_of(to, LENS_DRAW_LAYERS) + many - 1
                                                              : pipelines_of(to, LENS_DRAW_TILES) + first_forms[many];
     result = virga_pipelines_ready(pipelines, kinds);

@@ -315,6 +315,39 @@ static void a_picture_of_one_pixel_is_itself(void **state)
     }
 }
 
+/* Something in front of the focus in the middle of what is in focus. */
+static void paint_patch(const lens_picture *scene)
+{
+    lens_paint_all(scene, 0.25f, 1);
+    for (uint32_t i = 0; i < 64; i++)
+        lens_paint(scene, 108 + i % 8, 44 + i / 8, 20, 1 / 1.5);
+}
+
+/* Fields are computed for tiles that something reaches only. What is left beside them of a picture before it, of which
+ * all was bright and out of focus, changes nothing: in passes for discs of any width, and in that for narrow ones. */
+static void nothing_is_left_of_the_picture_before(void **state)
+{
+    (void)state;
+    static float alone[4 * WIDTH * HEIGHT];
+    for (int i = 0; i < 4; i++) {
+        host h;
+        effect_fixture_variants = i < 2 ? VIRGA_VARIANTS_SOFTWARE : VIRGA_VARIANTS_GPU;
+        REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
+        h.f.settings.max_radius_px = 16;
+        if (i & 1) {
+            lens_paint_all(&h.f.scene, 60000, 0.5);
+            run(&h);
+        }
+        paint_patch(&h.f.scene);
+        run(&h);
+        if (i & 1)
+            assert_memory_equal(h.f.result, alone, sizeof alone);
+        memcpy(alone, h.f.result, sizeof alone);
+        close_host(&h);
+    }
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+}
+
 /* Each draw has the tiles of its own view, although the other one was prepared before or after it. */
 static void views_of_a_frame_keep_their_tiles(void **state)
 {
@@ -389,6 +422,7 @@ int main(void)
         cmocka_unit_test(what_nothing_out_of_focus_reaches_is_not_touched),
         cmocka_unit_test(all_in_focus_and_all_out_of_focus),
         cmocka_unit_test(a_picture_of_one_pixel_is_itself),
+        cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(views_of_a_frame_keep_their_tiles),
         cmocka_unit_test(what_it_cannot_do_is_refused_with_a_line),
     };

@@ -52,29 +52,6 @@ static void one_pass_gives_the_same_picture_as_many(void **state)
     effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
 }
 
-/* Fields are computed for tiles that something reaches only. What is left beside them of a picture before it, of which
- * all was bright and out of focus, changes nothing. */
-static void nothing_is_left_of_the_picture_before(void **state)
-{
-    (void)state;
-    static float alone[COUNT];
-    for (int after = 0; after < 2; after++) {
-        lens_fixture f;
-        open_kind(&f, VIRGA_VARIANTS_GPU, &kinds[0], false);
-        if (after) {
-            lens_paint_all(&f.scene, 60000, 0.5);
-            lens_fixture_run(&f);
-            lens_paint_kinds(&f.scene);
-        }
-        lens_fixture_run(&f);
-        if (after)
-            assert_memory_equal(f.result, alone, sizeof alone);
-        memcpy(alone, f.result, sizeof alone);
-        lens_fixture_close(&f);
-    }
-    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
-}
-
 static void a_picture_of_one_pixel_is_itself(void **state)
 {
     (void)state;
@@ -93,7 +70,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_pass_gives_the_same_picture_as_many),
-        cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(a_picture_of_one_pixel_is_itself),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
