@@ -21,9 +21,9 @@ struct virga_foam_gpu {
     float velocity[3]; /* m/s */
     float life_s;      /* that is left */
     float age_s;
-    uint kind;    /* VIRGA_FOAM_... */
-    uint id;      /* virga_hash3(id of the particle of water, time in microseconds, number) */
-    float around; /* particles of water around it */
+    uint kind;      /* VIRGA_FOAM_... */
+    uint id;        /* virga_hash3(id of the particle of water, time in microseconds, number) */
+    float around;   /* particles of water around it */
     float moved[3]; /* m/s, mean over the newest step: what motion vectors show. It follows the surface, too */
     float pad;
 };

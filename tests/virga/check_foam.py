@@ -44,7 +44,8 @@ for u, v, r, shown in discs:
     seen += 1
     if not alpha[middle] > 0.02:
         wrong.append(f"foam at {u:.1f}, {v:.1f} of {r:.1f} px: the layer has {alpha[middle]}")
-print(f"frame {sys.argv[4]}: {count} particles of foam, {seen} looked at; the layer covers {sum(alpha.values()):.1f} px, "
+covered = sum(alpha.values())
+print(f"frame {sys.argv[4]}: {count} particles of foam, {seen} looked at; the layer covers {covered:.1f} px, "
       f"{beside:.3f} px of them beside all foam")
 if seen < 30 or beside > 0 or wrong:
     sys.exit("\n".join(wrong[:5]) or "too little foam, or foam beside it")

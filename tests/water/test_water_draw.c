@@ -80,8 +80,8 @@ static void pack_normal(const double n[3], virga_surfel_gpu *surfel)
     surfel->normal = ((uint32_t)lround(e[1] * 32767) & 0xffff) << 16 | ((uint32_t)lround(e[0] * 32767) & 0xffff);
 }
 
-/* For shot.after_step: surfels where the edges of a grid cross a sphere, in place of those of the step, whose surface is
- * as rough as its particles lie. */
+/* For shot.after_step: surfels where the edges of a grid cross a sphere, in place of those of the step, whose surface
+ * is as rough as its particles lie. */
 static void record_sphere(shot *of, VkCommandBuffer cmd)
 {
     const double step = 2 * SPACING_M / VIRGA_WATER_SIDE;
@@ -104,8 +104,8 @@ static void record_sphere(shot *of, VkCommandBuffer cmd)
     surfels_replace(of, cmd, count);
 }
 
-/* One sample in each pixel: the coverage of the silhouette's pixels, within 1.5 px, against that of the disc. Pixels that
- * are covered or not, without anything between, would be off by 0.07 to 0.1 on average. */
+/* One sample in each pixel: the coverage of the silhouette's pixels, within 1.5 px, against that of the disc. Pixels
+ * that are covered or not, without anything between, would be off by 0.07 to 0.1 on average. */
 static void a_silhouette_is_as_smooth_as_a_disc(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Nothing pops in 48 frames: of a pool with a wave and of spray that rises from it and falls back, and of particles that
- * appear and vanish in files. How much pixels change from a frame to the next beyond what motion vectors explain. */
+/* Nothing pops in 48 frames: of a pool with a wave and of spray that rises from it and falls back, and of particles
+ * that appear and vanish in files.
+ * How much pixels change from a frame to the next beyond what motion vectors explain. */
 #include "water_fixture.h"
 
 #include "../host/temporal_picture.h"

@@ -37,8 +37,8 @@ static inline void sheet_position(uint32_t i, float position[3])
     position[2] = (float)(SHEET_STEP_M * (i / SHEET_ACROSS) - 0.5 * SHEET_STEP_M * SHEET_ACROSS);
 }
 
-/* The first `count` surfels of shot.extra become those of the step, whose own passes could make them only with errors of
- * their own. */
+/* The first `count` surfels of shot.extra become those of the step, whose own passes could make them only with errors
+ * of their own. */
 static inline void surfels_replace(shot *of, VkCommandBuffer cmd, uint32_t count)
 {
     const uint32_t head[5] = {count, count, (count + VIRGA_WATER_LANES - 1) / VIRGA_WATER_LANES, 1, 1}, none = count;

@@ -7,8 +7,9 @@
  *     for each component; an indexed text has a list of texts in place of the default
  *     each point: x, y, z, w, then the attributes, 4 bytes for each component
  *
- * A length of -1 stands for one of 32 bits behind it. What follows the points is not read: attributes of vertices and of
- * primitives, the primitives, attributes of the whole, and groups. "Documentation on the Public Domain Geometry Library
+ * A length of -1 stands for one of 32 bits behind it. What follows the points is not read: attributes of vertices and
+ * of primitives, the primitives, attributes of the whole, and groups.
+ * "Documentation on the Public Domain Geometry Library
  * (GPD) - Version 5", which comes with Houdini, has all of it. */
 #include "particle_reader.h"
 

@@ -183,8 +183,7 @@ static void turn(const float matrix[9], const float in[3], float out[3])
         out[row] = matrix[row * 3] * in[0] + matrix[row * 3 + 1] * in[1] + matrix[row * 3 + 2] * in[2];
 }
 
-static void copy_samples(const float matrix[9], const particle_sample *samples, uint32_t count,
-                         virga_particle_gpu *out)
+static void copy_samples(const float matrix[9], const particle_sample *samples, uint32_t count, virga_particle_gpu *out)
 {
     for (uint32_t i = 0; i < count; i++) {
         turn(matrix, samples[i].position, out[i].position);

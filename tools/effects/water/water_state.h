@@ -51,12 +51,12 @@ typedef struct water_state {
     virga_water *water; /* NULL: none */
     water_source source;
     water_solver solver;
-    uint32_t max_particles; /* for which there is room */
-    host_buffer particles;  /* HOST_FRAMES parts of max_particles */
-    double frame_s, time_s; /* of the files, in the newest frame of the shot and in the newest step */
-    uint32_t count;         /* of the newest step */
+    uint32_t max_particles;          /* for which there is room */
+    host_buffer particles;           /* HOST_FRAMES parts of max_particles */
+    double frame_s, time_s;          /* of the files, in the newest frame of the shot and in the newest step */
+    uint32_t count;                  /* of the newest step */
     const virga_particle_gpu *given; /* them; those of a solver once it has been waited for */
-    uint64_t step_frame;    /* device frame of the newest step */
+    uint64_t step_frame;             /* device frame of the newest step */
     shot_read surfels, droplets, foam;
     /* The particles of the newest step, for views. */
     VkBuffer shown;
