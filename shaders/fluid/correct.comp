@@ -34,7 +34,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
 #define FLUID_ACCESS
-#define STATE_ACCESS
+#define STATE_ACCESS coherent
 #include "fluid.glsl"
 #include "bodies.glsl"
 #include "kernel.glsl"
@@ -135,7 +135,7 @@ void main()
     if (i < grid.sorted)
         atomicAdd(group_error, min(uint(improve(i) * VIRGA_FLUID_ERROR_ONE), VIRGA_FLUID_ERROR_MAX));
     barrier();
-    // All of this workgroup have read the state, which the last one changes.
+    // All of this workgroup have read the state, which the last one changes. Its error counts before it does.
     if (gl_LocalInvocationIndex == 0u) {
         atomicAdd(state.error, group_error >> VIRGA_FLUID_ERROR_SHIFT);
         memoryBarrierBuffer();
