@@ -248,7 +248,8 @@ failures=$? count=$((count + 2))
 "$virga" render "$good" -o "$work/fine" >"$work/stdout" 2>"$work/err" || complain 'the good scene'
 [ -f "$work/fine/frame.0002.exr" ] || complain 'the good scene wrote no frame'
 "$virga" render "$good" -o "$work/wet" --points --stats --set ground.on=true --set ground.cells=128 \
-    --set ground.start_water_mm=3 --set rain.rate_mm_h=100 --set frames.warm_start=false >"$work/stdout" 2>"$work/err" ||
+    --set ground.start_water_mm=3 --set rain.rate_mm_h=100 --set frames.warm_start=false \
+    >"$work/stdout" 2>"$work/err" ||
     complain 'the good scene with splashes'
 [ -f "$work/wet/splash.0002.ply" ] || complain 'the good scene with splashes wrote no droplets'
 "$virga" check "$good" --set ground.on=true --set splash.mode=paper >"$work/stdout" 2>"$work/err" ||
