@@ -3,6 +3,7 @@
 Usage: check_outputs.py headers|pixels|points|droplets|stats|previews FILE...
        check_outputs.py near FILE X Y Z
        check_outputs.py mapped POINTS STATS STATS_WITHOUT
+       check_outputs.py drips STATS
 """
 import json
 import math
@@ -378,8 +379,17 @@ def check_previews(paths):
         expect(struct.unpack(">II", data[16:24]) == SIZE, f"{path} is {struct.unpack('>II', data[16:24])}")
 
 
+def check_drips(paths):
+    drips = [json.loads(line)["splash"]["drips"] for line in open(paths[0])][-1]
+    expect(drips["drops"] > 20, f"{drips['drops']} drops fell")
+    expect(near(drips["rain_ul"], drips["fell_ul"] + drips["on_surfaces_ul"], 1e-3), f"water of drips: {drips}")
+    mean_ul = drips["fell_ul"] / max(drips["drops"], 1)
+    expect(14.1 < mean_ul < 65.5, f"drops of {mean_ul:.1f} ul, not of 3 to 5 mm")
+
+
 CHECKS = {"headers": check_headers, "pixels": check_pixels, "moving": check_moving, "points": check_points,
           "droplets": check_droplets,
-          "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews}
+          "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews,
+          "drips": check_drips}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)

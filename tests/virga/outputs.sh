@@ -15,14 +15,14 @@ fail() {
     failures=$((failures + 1))
 }
 
-# render FOLDER OPTION...: the street, small. Without gusts, so that each drop falls with the mean wind, and from the
-# first frame on, so that ages and sums are those since then. Renders with
+# render FOLDER OPTION...: the street, small. Without gusts, so that each drop falls with the mean wind, from the first
+# frame on, so that ages and sums are those since then, and without drips, so that droplets are of splashes. Renders with
 # the same passes as one before run without validation (VIRGA_VALIDATE=0).
 render() {
     local folder=$work/$1
     shift
     timeout 120 "$virga" render "$source/assets/scenes/street.yaml" -o "$folder" --size 160x90 --device "$device" \
-        --set rain.gust_m_s=0 --set frames.warm_start=false "$@" 2>"$work/log" ||
+        --set rain.gust_m_s=0 --set frames.warm_start=false --set splash.drips.on=false "$@" 2>"$work/log" ||
         { cat "$work/log"; fail "render $*"; exit 1; }
     ! grep '^validation: ' "$work/log" || fail "render $*: validation"
 }
@@ -78,6 +78,10 @@ python3 "$here/check_outputs.py" droplets "$out"/splash.000{1,2,3}.ply "$work"/d
 VIRGA_VALIDATE=0 render far --frames 2 --points --layers depth --set 'meshes.0.position_m=[1000, 0, -600]' \
     --set 'camera.keys=[{position_m: [1001.5, 1.7, -592], look_at_m: [999.5, 2.2, -612]}]'
 python3 "$here/check_outputs.py" near "$work/far/splash.0002.ply" 1001.5 1.7 -592 || fail "droplets far from the origin"
+
+# Rain drips from the awning, the balcony, the car and the trees; it is on them or it fell.
+VIRGA_VALIDATE=0 render drips --frames 2 --stats --layers depth --set splash.drips.on=true
+python3 "$here/check_outputs.py" drips "$work/drips/stats.jsonl" || fail "drips"
 
 # A map of materials: metal ahead of the camera to the left, tiles behind it to the right, else what the meshes say.
 base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg\

@@ -31,7 +31,7 @@ static const scene_row drip_rows[] = {
     NUMBER(scene_splash_drips, max_mm, 1, 7, "5", LIVE, "diameter of the largest"),
     SWITCH(scene_splash_drips, wet, "true", RESTARTS, "it has rained for long before the first frame"),
     WHOLE(scene_splash_drips, max_sites, 16, 65536, "16384", RESTARTS,
-          "places that drip at most: those with the most water; 176 bytes each"),
+          "places that drip at most: those with the most water"),
 };
 static const scene_group drip_group = SCENE_GROUP(scene_splash_drips, drip_rows);
 

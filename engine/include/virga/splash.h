@@ -68,7 +68,7 @@ typedef struct virga_splash_def {
      * 0. */
     uint32_t max_handed;
 
-    /* [0; 65536] places from which rain water drips, see virga_splash_set_drips; 80 bytes each and 32 for each frame in
+    /* [0; 65536] places from which rain water drips, see virga_splash_set_drips; 48 bytes each and 32 for each frame in
      * flight. Above 0, max_handed is raised to 4096 where it is 0. Default 0. */
     uint32_t max_drips;
 
