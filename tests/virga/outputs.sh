@@ -16,8 +16,8 @@ fail() {
 }
 
 # render FOLDER OPTION...: the street, small. Without gusts, so that each drop falls with the mean wind, from the first
-# frame on, so that ages and sums are those since then, and without drips, so that droplets are of splashes. Renders with
-# the same passes as one before run without validation (VIRGA_VALIDATE=0).
+# frame on, so that ages and sums are those since then, and without drips, so that droplets are of splashes. Renders
+# with the same passes as one before run without validation (VIRGA_VALIDATE=0).
 render() {
     local folder=$work/$1
     shift
