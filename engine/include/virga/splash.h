@@ -245,8 +245,8 @@ typedef struct virga_drip_site {
  *
  * `sites` is copied. Takes effect in the next step. A site keeps the water of the site that had its index before; call
  * it again after a state was loaded, as sites are not part of it. `count`: at most def.max_drips, else
- * VIRGA_ERROR_INVALID, as with values out of range; nothing changes then. Costs some ns a site here, and in each step
- * about 20 ns a site on software Vulkan. Thread-safety: as the splashes. */
+ * VIRGA_ERROR_INVALID, as with values out of range; nothing changes then. Costs some ns a site here, and in each tick
+ * about 0.3 us a site on software Vulkan, which computes them one after the other. Thread-safety: as the splashes. */
 VIRGA_API virga_result virga_splash_set_drips(virga_splash *splash, const virga_drip_site *sites, uint32_t count);
 
 /* The ground that spray falls on: what virga_ground_cells_get and virga_ground_maps_get say, after the ground's step.
