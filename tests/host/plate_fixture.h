@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host.h"
+#include "stuck.h"
 
 typedef struct fixture {
     host_instance instance;
@@ -35,6 +36,7 @@ static inline bool fixture_begin(fixture *f)
     host_device_info infos[HOST_MAX_DEVICES];
     uint32_t index = 0;
     memset(f, 0, sizeof *f);
+    stuck_watch();
     if (!host_instance_create(&f->instance, true, f->error, sizeof f->error) &&
         !host_instance_create(&f->instance, false, f->error, sizeof f->error))
         return false;
