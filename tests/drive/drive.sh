@@ -41,6 +41,8 @@ grep -q "VK_LAYER_KHRONOS_validation" "$work/layers" || { echo "validation is no
 render inside_rain --rain 80 --wipers off
 without_layers inside_dry --rain 0 --wipers off
 python3 "$look" "$work/inside_rain.png" "$work/inside_dry.png" 0.02
+render inside_focus --rain 0 --wipers off --focus
+python3 "$look" "$work/inside_focus.png" "$work/inside_dry.png" 0.01
 render outside_rain --rain 80 --outside
 without_layers outside_dry --rain 0 --outside
 python3 "$look" "$work/outside_rain.png" "$work/outside_dry.png" 0.02
@@ -61,7 +63,7 @@ done
 
 # Every option of the command line stands in the help.
 "$drive" --help >"$work/help" || { echo "drive --help failed"; exit 1; }
-for option in track start outside rain wipers frames out fps real-time size quality budget device pipelines; do
+for option in track start outside focus rain wipers frames out fps real-time size quality budget device pipelines; do
     grep -q -- "--$option" "$work/help" || { echo "drive --help does not say --$option"; exit 1; }
 done
 

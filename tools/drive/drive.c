@@ -3,11 +3,11 @@
  * other would do. options, window, world, windshield and game are the rest of the program. They make no call of Virga;
  * the renderer only sees the maps and lamps that its material reads.
  *
- *     drive [MODEL.glb] [--track FILE] [--outside] [--rain MM_H] [--wipers off|intermittent|slow|fast] [--start M]
- *           [--frames N --out FILE.png [--fps N | --real-time]] [--size WxH] [--quality NAME] [--budget MS]
+ *     drive [MODEL.glb] [--track FILE] [--outside] [--focus] [--rain MM_H] [--wipers off|intermittent|slow|fast]
+ *           [--start M] [--frames N --out FILE.png [--fps N | --real-time]] [--size WxH] [--quality NAME] [--budget MS]
  *           [--device N|gpu|cpu|NAME] [--pipelines FILE]
  *
- * Keys: C camera, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.
+ * Keys: C camera, F focus, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.
  */
 #include "game.h"
 
@@ -235,6 +235,20 @@ static bool attach(drive *d)
            fine(d, virga_scene_attach(d->rain, d->target), "pipelines");
 }
 
+/* (optional) A lens in place: it blends what is out of focus over the picture, and leaves all else alone. A lens is for
+ * pictures up to a size, so there is another one after the window has grown. */
+static bool create_lens(drive *d)
+{
+    virga_lens_def def = virga_default_lens_def();
+    virga_lens_destroy(&d->lens);
+    def.max_width = d->stage.width > 16 ? d->stage.width : 16;
+    def.max_height = d->stage.height > 16 ? d->stage.height : 16;
+    def.half_resolution = 1;
+    def.in_place = 1;
+    return fine(d, virga_lens_create(d->context, &def, &d->lens), "lens") &&
+           fine(d, virga_lens_attach(d->lens, d->target), "pipelines of the lens");
+}
+
 /* ---- 5. a frame -------------------------------------------------------------------------------------------------- */
 
 /* Lamps of the street and of the car. They light both the street and the water. */
@@ -363,6 +377,30 @@ static virga_view look(const drive *d, double dt_s)
     return view;
 }
 
+/* The focus is on the windshield: the street behind it gets soft. Rain is a part of the picture here. A host that keeps
+ * it apart gives it as a layer, with a depth of its own. */
+static bool blur_street(drive *d, VkCommandBuffer cmd, virga_view view)
+{
+    virga_lens_settings lens = virga_default_lens_settings();
+    double glass_m[3], off2 = 0;
+    car_point(&d->car, car_windshield_m, glass_m);
+    for (int axis = 0; axis < 3; axis++)
+        off2 += (glass_m[axis] - d->camera.position_m[axis]) * (glass_m[axis] - d->camera.position_m[axis]);
+    lens.focal_m = 0.035f;
+    lens.aperture_f = (float)(2 / d->focus); /* it opens while the focus changes */
+    lens.focus_m = (float)sqrt(off2);
+    lens.max_radius_px = 16; /* up to this, one pass does it all */
+    view.color = seen(&d->stage.color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (!fine(d, virga_lens_set(d->lens, &lens), "lens") ||
+        !fine(d, virga_lens_prepare(d->lens, cmd, &view, NULL, 0, d->time_s), "focus"))
+        return false;
+    stage_sampled(&d->stage, cmd);
+    stage_over_begin(&d->stage, cmd);
+    const virga_result drawn = virga_lens_draw(d->lens, cmd, d->target);
+    stage_over_end(&d->stage, cmd);
+    return fine(d, drawn, "draw of the lens");
+}
+
 /* Drops show what is behind them with its haze and its rain, so it is copied once more. Else they would be dark spots
  * before a street that the haze has made bright. */
 static bool draw_windshield(drive *d, VkCommandBuffer cmd, virga_view view, const virga_scene_pane *pane)
@@ -407,7 +445,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     const bool splashes = fine(d, virga_splash_draw(virga_scene_splash(d->rain), cmd, d->target), "splashes");
     const bool rain = fine(d, virga_rain_draw(virga_scene_rain(d->rain), cmd, d->target), "rain");
     stage_over_end(&d->stage, cmd);
-    return splashes && rain && draw_windshield(d, cmd, view, &pane);
+    return splashes && rain && (d->focus <= 0 || blur_street(d, cmd, view)) && draw_windshield(d, cmd, view, &pane);
 }
 
 /* Binds the images that the street's material samples: once, and after a resize. */
@@ -427,8 +465,11 @@ static bool run_frame(drive *d, double dt_s, bool keep)
         return false;
     if (!stage_begin(&d->stage, &cmd, &resized, d->error, sizeof d->error))
         return false;
-    if (resized)
+    if (resized) {
         bind_maps(d);
+        if (d->lens && d->stage.width && !create_lens(d))
+            return false;
+    }
     if (!cmd) {
         if (d->window && !resized)
             glfwWaitEventsTimeout(0.1); /* minimised */
@@ -437,6 +478,7 @@ static bool run_frame(drive *d, double dt_s, bool keep)
     car_drive(&d->car, &d->track, &d->keys, dt_s);
     move_wipers(d, dt_s);
     move_camera(d, d->has_last_camera ? dt_s : 0);
+    move_focus(d, dt_s);
     light_up(d);
     put_wipers(d);
     host_mesh_move(cmd, &d->wipers, d->boxes.vertices);
@@ -466,6 +508,7 @@ static void print_cost(const drive *d)
 /* All recorded commands must have completed. The order is free, but the context is last. */
 static void destroy_rain(drive *d)
 {
+    virga_lens_destroy(&d->lens);
     virga_scene_destroy(&d->rain);
     virga_target_destroy(&d->target);
     virga_context_destroy(&d->context);
@@ -483,7 +526,7 @@ static bool run(drive *d)
     car_place(&d->car, &d->track, d->chosen.start_m);
     light_up(d);
     bind_maps(d);
-    if (!set_rate(d) || !attach(d))
+    if (!set_rate(d) || !attach(d) || !create_lens(d))
         return false;
     double dt_s;
     while (next_frame(d, &dt_s))

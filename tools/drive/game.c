@@ -41,6 +41,16 @@ void move_camera(drive *d, double dt_s)
     stage_camera_set(&d->stage, &d->camera);
 }
 
+/* Outside there is no windshield before the camera. */
+void move_focus(drive *d, double dt_s)
+{
+    const double wanted = d->focused && !d->outside ? 1 : 0;
+    d->focus = d->time_s > 0 ? d->focus + (wanted - d->focus) * fmin(5 * dt_s, 1) : wanted;
+    if (fabs(wanted - d->focus) < 0.01)
+        d->focus = wanted;
+    d->time_s += dt_s;
+}
+
 static void on_key(GLFWwindow *window, int key, int code, int action, int modifiers)
 {
     drive *d = glfwGetWindowUserPointer(window);
@@ -53,6 +63,7 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int modifi
         d->outside = !d->outside;
         d->has_last_camera = d->stage.has_last = false; /* a cut: no motion blur across it */
         break;
+    case GLFW_KEY_F: d->focused = !d->focused; break;
     case GLFW_KEY_W: d->wiper_speed = (d->wiper_speed + 1) % WIPER_SPEEDS; break;
     case GLFW_KEY_A: d->car.autopilot = true; break;
     case GLFW_KEY_EQUAL:

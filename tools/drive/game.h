@@ -49,6 +49,9 @@ typedef struct drive {
     car car;
     car_keys keys;
     bool outside;
+    bool focused;    /* on the windshield, else all is sharp */
+    double focus;    /* how far the lens has opened for that, [0; 1] */
+    double time_s;   /* since the start */
     double eye_m[3]; /* of the camera outside, which lags behind */
     stage_camera camera, last_camera;
     bool has_last_camera;
@@ -61,6 +64,7 @@ typedef struct drive {
     virga_context *context;
     virga_scene *rain;
     virga_target *target;
+    virga_lens *lens;
     virga_lighting lighting;
     virga_glass_settings glass;
     float pane[PANE_POINTS * PANE_POINTS * 3];
@@ -99,5 +103,6 @@ void move_wipers(drive *d, double dt_s);
 bool next_frame(drive *d, double *dt_s);
 bool finish_file(drive *d);
 void move_camera(drive *d, double dt_s);
+void move_focus(drive *d, double dt_s);
 
 #endif

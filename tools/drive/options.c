@@ -48,6 +48,7 @@ static bool parse_option(drive *d, int option, const char *value)
     case 'o': d->chosen.out = value; return true;
     case 'p': d->chosen.pipelines = value; return true;
     case 'O': d->outside = true; return true;
+    case 'F': d->focused = true; return true;
     case 'R': d->chosen.real_time = true; return true;
     case 'w': return parse_wipers(d, value);
     case 'q': return parse_quality(d, value);
@@ -85,6 +86,7 @@ bool read_command_line(drive *d, int argc, char **argv)
                                             {"out", required_argument, NULL, 'o'},
                                             {"pipelines", required_argument, NULL, 'p'},
                                             {"outside", no_argument, NULL, 'O'},
+                                            {"focus", no_argument, NULL, 'F'},
                                             {"wipers", required_argument, NULL, 'w'},
                                             {"rain", required_argument, NULL, 'r'},
                                             {"start", required_argument, NULL, 's'},
@@ -125,6 +127,7 @@ void print_help(void)
            "      --track FILE         where it drives. Default: assets/scenes/MODEL.track\n"
            "      --start M            how far along it begins\n"
            "      --outside            seen from outside\n"
+           "      --focus              on the windshield: the street is soft. Default: all is sharp\n"
            "      --rain MM_H          0 to 200. Default 30\n"
            "      --wipers SPEED       off, intermittent, slow or fast. Default slow\n"
            "      --frames N           ends after so many\n"
@@ -136,5 +139,5 @@ void print_help(void)
            "      --budget MS          device time for ticks in a frame. 0: no limit. Default 8, and 0 with --out\n"
            "      --device N|gpu|cpu|NAME\n"
            "      --pipelines FILE     keeps compiled pipelines for the next start\n\n"
-           "Keys: C camera, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.\n");
+           "Keys: C camera, F focus, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.\n");
 }

@@ -269,6 +269,14 @@ void stage_world_end(stage *s, VkCommandBuffer cmd)
     copy_color(s, cmd, &s->behind);
 }
 
+void stage_sampled(stage *s, VkCommandBuffer cmd)
+{
+    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    host_image_barrier(cmd, &s->color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                       readers, 0, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+}
+
 void stage_through(stage *s, VkCommandBuffer cmd)
 {
     host_image_barrier(cmd, &s->color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,

@@ -4,6 +4,7 @@
  *     stage_begin            a command buffer, and an image to show
  *     stage_world_begin/end  sky and meshes into `color` and `depth`; then `behind` is a copy of `color`
  *     stage_over_begin/end   what is blended over `color`, while `depth` and `behind` may be sampled
+ *     (stage_sampled, and stage_over_begin/end: what samples `color` and is then blended over it, as a lens)
  *     stage_through          `through` is a copy of `color` now
  *     stage_over_begin/end   what shows `through`
  *     stage_end              `color` to the window or to the picture; submitted
@@ -108,6 +109,7 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
 void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw);
 void stage_world_end(stage *s, VkCommandBuffer cmd);
 void stage_through(stage *s, VkCommandBuffer cmd);
+void stage_sampled(stage *s, VkCommandBuffer cmd); /* after `color` was sampled, before it is drawn over again */
 void stage_over_begin(stage *s, VkCommandBuffer cmd);
 void stage_over_end(stage *s, VkCommandBuffer cmd);
 bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size);
