@@ -81,22 +81,15 @@ static bool parse_option(drive *d, int option, const char *value)
 
 bool read_command_line(drive *d, int argc, char **argv)
 {
-    static const struct option options[] = {{"track", required_argument, NULL, 't'},
-                                            {"device", required_argument, NULL, 'd'},
-                                            {"out", required_argument, NULL, 'o'},
-                                            {"pipelines", required_argument, NULL, 'p'},
-                                            {"outside", no_argument, NULL, 'O'},
-                                            {"focus", no_argument, NULL, 'F'},
-                                            {"wipers", required_argument, NULL, 'w'},
-                                            {"rain", required_argument, NULL, 'r'},
-                                            {"start", required_argument, NULL, 's'},
-                                            {"frames", required_argument, NULL, 'n'},
-                                            {"fps", required_argument, NULL, 'f'},
-                                            {"size", required_argument, NULL, 'S'},
-                                            {"quality", required_argument, NULL, 'q'},
-                                            {"budget", required_argument, NULL, 'b'},
-                                            {"real-time", no_argument, NULL, 'R'},
-                                            {0}};
+    static const struct option options[] = {
+        {"track", required_argument, NULL, 't'},   {"device", required_argument, NULL, 'd'},
+        {"out", required_argument, NULL, 'o'},     {"pipelines", required_argument, NULL, 'p'},
+        {"outside", no_argument, NULL, 'O'},       {"focus", no_argument, NULL, 'F'},
+        {"wipers", required_argument, NULL, 'w'},  {"rain", required_argument, NULL, 'r'},
+        {"start", required_argument, NULL, 's'},   {"frames", required_argument, NULL, 'n'},
+        {"fps", required_argument, NULL, 'f'},     {"size", required_argument, NULL, 'S'},
+        {"quality", required_argument, NULL, 'q'}, {"budget", required_argument, NULL, 'b'},
+        {"real-time", no_argument, NULL, 'R'},     {0}};
     static char track_path[4096];
     d->chosen = (choices){.model = DRIVE_ASSETS "/scenes/street.glb", .fps = 30, .width = 1280, .height = 720};
     d->rate_mm_h = 30;
