@@ -9,11 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench/model/block_cost.h"
 #include "bench/model/model.h"
 
 #include "plate_fixture.h"
 
 #include "counted_comp.spv.h"
+#include "fused_0_comp.spv.h"
+#include "fused_1_comp.spv.h"
+#include "fused_2_comp.spv.h"
 
 #define LANES   1024
 #define WORKING 1000
@@ -215,6 +219,25 @@ static void a_modelled_time_is_that_of_pen_and_paper(void **state)
     close_pass(f, &p);
 }
 
+static float operations(const uint32_t *code, size_t bytes)
+{
+    block_costs costs;
+    float sum = 0;
+    assert_true(block_costs_read(code, bytes / 4, &costs));
+    for (uint32_t i = 0; i < costs.block_count; i++)
+        sum += costs.blocks[i].full;
+    block_costs_free(&costs);
+    return sum;
+}
+
+static void a_product_and_a_sum_are_one_operation_unless_they_are_precise(void **state)
+{
+    (void)state;
+    const float fused = operations(fused_0_comp_spv, sizeof fused_0_comp_spv);
+    assert_float_equal(operations(fused_1_comp_spv, sizeof fused_1_comp_spv), fused + 4, 0);
+    assert_float_equal(operations(fused_2_comp_spv, sizeof fused_2_comp_spv), fused + 4, 0);
+}
+
 static void a_card_is_found_by_its_name(void **state)
 {
     (void)state;
@@ -248,6 +271,7 @@ int main(void)
         cmocka_unit_test(lanes_trips_and_bytes_are_the_shaders),
         cmocka_unit_test(results_are_the_same_with_and_without),
         cmocka_unit_test(a_modelled_time_is_that_of_pen_and_paper),
+        cmocka_unit_test(a_product_and_a_sum_are_one_operation_unless_they_are_precise),
         cmocka_unit_test(a_card_is_found_by_its_name),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -8,17 +8,19 @@
 
 /* What is known of an id. */
 typedef struct id_facts {
-    uint32_t opcode;       /* of a type or variable */
-    uint32_t of;           /* type: of components, elements, or what it points to; value: its type */
-    uint32_t count;        /* type: components, columns, elements; integers: bytes */
-    uint32_t bytes;        /* type: size */
-    uint32_t value;        /* constant: its first word */
-    uint32_t storage;      /* pointers and variables: storage class */
-    uint32_t set, binding; /* variables */
-    uint32_t built_in;     /* variables: 1 + the number */
-    uint32_t resource;     /* pointers and images: 1 + index */
-    uint32_t block;        /* labels: 1 + index */
-    bool own;              /* differs between the lanes of a wave */
+    uint32_t opcode;              /* of a type or variable */
+    uint32_t of;                  /* type: of components, elements, or what it points to; value: its type */
+    uint32_t count;               /* type: components, columns, elements; integers: bytes */
+    uint32_t bytes;               /* type: size */
+    uint32_t value;               /* constant: its first word */
+    uint32_t storage;             /* pointers and variables: storage class */
+    uint32_t set, binding;        /* variables */
+    uint32_t built_in;            /* variables: 1 + the number */
+    uint32_t resource;            /* pointers and images: 1 + index */
+    uint32_t block;               /* labels: 1 + index */
+    bool own;                     /* differs between the lanes of a wave */
+    bool exact;                   /* a product or sum that may not be fused with another */
+    const block_cost *product_of; /* a product that can be fused: the block that it is in */
 } id_facts;
 
 typedef struct reader {
@@ -84,7 +86,9 @@ static void read_type(reader *r, const uint32_t *at, uint32_t length)
 static void decorate(reader *r, const uint32_t *at)
 {
     id_facts *id = &r->ids[at[1]];
-    if (at[2] == DECORATION_SET)
+    if (at[2] == DECORATION_NO_CONTRACTION)
+        id->exact = true;
+    else if (at[2] == DECORATION_SET)
         id->set = at[3];
     else if (at[2] == DECORATION_BINDING)
         id->binding = at[3];
@@ -158,12 +162,31 @@ static void cost_of_function(block_cost *b, uint32_t function, float n, float ta
     b->slow += slow;
 }
 
+/* A sum or difference of a product of the same block is fused with it, as compilers for GPUs do: one operation, which
+ * the product has counted. Once for each product; for another sum it is computed again. */
+static bool is_fused(reader *r, const uint32_t *at)
+{
+    for (int i = 3; i < 5 && !r->ids[at[2]].exact; i++)
+        if (r->ids[at[i]].product_of == r->block) {
+            r->ids[at[i]].product_of = NULL;
+            return true;
+        }
+    return false;
+}
+
 static void cost_of_arithmetic(reader *r, const uint32_t *at, uint32_t op, float n)
 {
     block_cost *b = r->block;
     const float taken = components(r, r->ids[at[3]].of);
     switch (op) {
     case OP_I_MUL: b->slow += n; break;
+    case OP_F_MUL:
+    case OP_VECTOR_TIMES_SCALAR:
+        b->full += n;
+        r->ids[at[2]].product_of = r->ids[at[2]].exact ? NULL : b;
+        break;
+    case OP_F_ADD:
+    case OP_F_SUB: b->full += is_fused(r, at) ? 0 : n; break;
     case OP_F_DIV:
         b->full += n;
         b->slow += n;
@@ -388,7 +411,7 @@ static void read_global(reader *r, const uint32_t *at, uint32_t length)
         r->costs->stage = at[1];
     else if (op == OP_EXECUTION_MODE && at[2] == MODE_LOCAL_SIZE)
         memcpy(r->costs->local_size, at + 3, sizeof r->costs->local_size);
-    else if (op == OP_DECORATE && length > 3)
+    else if (op == OP_DECORATE && (length > 3 || at[2] == DECORATION_NO_CONTRACTION))
         decorate(r, at);
     else if (op >= OP_TYPE_VOID && op <= OP_TYPE_POINTER)
         read_type(r, at, length);

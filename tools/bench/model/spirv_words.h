@@ -47,7 +47,10 @@ typedef enum spirv_op {
     OP_CONVERT_LAST = 114,
     OP_ARITHMETIC_FIRST = 126,
     OP_I_ADD = 128,
+    OP_F_ADD = 129,
+    OP_F_SUB = 131,
     OP_I_MUL = 132,
+    OP_F_MUL = 133,
     OP_U_DIV = 134,
     OP_S_DIV = 135,
     OP_F_DIV = 136,
@@ -56,6 +59,7 @@ typedef enum spirv_op {
     OP_S_MOD = 139,
     OP_F_REM = 140,
     OP_F_MOD = 141,
+    OP_VECTOR_TIMES_SCALAR = 142,
     OP_VECTOR_TIMES_MATRIX = 144,
     OP_MATRIX_TIMES_VECTOR = 145,
     OP_MATRIX_TIMES_MATRIX = 146,
@@ -92,7 +96,8 @@ enum {
     DECORATION_BUILT_IN = 11,
     DECORATION_BINDING = 33,
     DECORATION_SET = 34,
-    DECORATION_OFFSET = 35
+    DECORATION_OFFSET = 35,
+    DECORATION_NO_CONTRACTION = 42
 };
 
 enum {
