@@ -104,24 +104,6 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
 
 /* ---- creating */
 
-/* Lanes of a subgroup in which passes exchange values by shuffles. 0: they use shared memory.
- *
- * Only software Vulkan uses shuffles. There they were measured to be faster, and a workgroup of whole subgroups has no
- * inactive lane. Other devices may run a shader with fewer lanes than they report, or with inactive lanes. Vulkan 1.2
- * can not require full subgroups, and a value read from an inactive lane is undefined. */
-static uint32_t shuffled_lanes(const virga_context *context)
-{
-    if (!context->for_software)
-        return 0;
-    VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                              .pNext = &subgroup};
-    context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
-    const bool can = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-                     (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
-    return can ? subgroup.subgroupSize : 0;
-}
-
 /* Whether the device can filter images of four 32-bit floats. */
 static bool can_filter(const virga_context *context)
 {
@@ -205,7 +187,7 @@ virga_result glass_picture_create(virga_glass *glass)
     const float height_m = (float)((double)glass->def.height_m / picture->max_rows);
     picture->any_beads = glass_picture_has_beads(glass->def.cell_m, width_m > height_m ? width_m : height_m);
     picture->filtered = can_filter(glass->base.context);
-    picture->lanes = shuffled_lanes(glass->base.context);
+    picture->lanes = virga_shuffled_lanes(glass->base.context);
     return create_reliefs(glass);
 }
 

@@ -82,6 +82,19 @@ static void choose_variants(virga_context *context, const virga_context_def *def
     context->lines = def->wide_lines && context->for_software && context->properties.limits.strictLines;
 }
 
+uint32_t virga_shuffled_lanes(const virga_context *context)
+{
+    if (!context->for_software)
+        return 0;
+    VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                              .pNext = &subgroup};
+    context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
+    const bool can = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                     (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+    return can ? subgroup.subgroupSize : 0;
+}
+
 static virga_result create_samplers(virga_context *context)
 {
     virga_result result = VIRGA_OK;

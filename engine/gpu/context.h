@@ -73,6 +73,13 @@ struct virga_context {
     struct virga_layout *first_layout; /* see gpu/layouts.h */
 };
 
+/* Lanes of a subgroup in which passes exchange values by shuffles. 0: they use shared memory.
+ *
+ * Only software Vulkan uses shuffles. There they were measured to be faster, and a workgroup of whole subgroups has no
+ * inactive lane. Other devices may run a shader with fewer lanes than they report, or with inactive lanes. Vulkan 1.2
+ * can not require full subgroups, and a value read from an inactive lane is undefined. */
+uint32_t virga_shuffled_lanes(const virga_context *context);
+
 /* An effect, target or scene begins to use the context, and ends. If the host has destroyed the context already, it is
  * freed with its last member. */
 void virga_context_join(virga_context *context);

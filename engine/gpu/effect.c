@@ -203,10 +203,14 @@ static virga_result create_passes(virga_effect *effect, const void *settings)
 {
     const virga_effect_type *type = effect->type;
     const uint32_t common = type->pass_constant ? type->pass_constant(effect) : 0;
+    const uint32_t lanes = virga_shuffled_lanes(effect->context);
+    const bool shuffles = lanes && lanes % 8 == 0;
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < type->pass_count; i++) {
         const virga_effect_pass *row = &type->passes[i];
         virga_pipeline **pipelines = virga_effect_member(effect, row->member);
+        if (row->shuffles && !shuffles)
+            continue;
         virga_compute_def def = {.shader = row->shader,
                                  .layout = layout_of(effect, row->layout)->shared,
                                  .group = &effect->passes,

@@ -90,6 +90,8 @@
 #define DRAW(pass, ...) ROW(ROW_PASS, EFFECT, draw_, pass, pass, __VA_ARGS__)
 /* In another folder, or with a member that is not called like the pass. */
 #define PASS_AT(folder, pass, member, ...) ROW(ROW_PASS, EFFECT, folder##_, pass, member, __VA_ARGS__)
+/* The form of a pass for subgroups of whole units of eight lanes; before the row of the pass itself. */
+#define PASS_SHUFFLE(pass, ...) ROW(ROW_PASS, EFFECT, , pass##_shuffle, pass, .shuffles = true, __VA_ARGS__)
 #define ROW_PASS(effect, folder, pass, member, ...) \
     {#effect "." #pass, offsetof(virga_##effect, member), VIRGA_SPIRV_ROW(effect##_##folder##pass##_comp), __VA_ARGS__}
 

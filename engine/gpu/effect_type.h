@@ -106,6 +106,7 @@ typedef struct virga_effect_pass {
     uint32_t forms; /* 0: one */
     uint32_t constant;
     uint32_t layout; /* index of the virga_effect_layout */
+    bool shuffles;   /* only where virga_shuffled_lanes is a multiple of 8; the row behind it is for other devices */
 } virga_effect_pass;
 
 /* Index of the first vertex shader for passes of several views. */

@@ -6,7 +6,7 @@ The SPIR-V of every compute shader of the library is read, as the build compiles
   - a workgroup has no more invocations than the 256 that virga_check_device asks for;
   - where invocations wait for what others of their workgroup write to a buffer (memoryBarrierBuffer) there is a buffer
     that is coherent: without it each may go on to see what its own cache has (GLSL 4.60, section 4.10);
-  - subgroups are known to the forms of glass's passes that are chosen by the device's size of them, and to no other.
+  - subgroups are known to the forms of passes that are chosen by the device's size of them, and to no other.
 
 usage: compute_rules.py SOURCE_ROOT BUILD_ROOT
 """
