@@ -24,6 +24,14 @@ float slope(float r2)
     return (12.0 * (b * b) - 3.0 * (a * a)) * inverse;
 }
 
+// 4 pi V W and slope() of a pair, which share most of their terms.
+vec2 kernel_and_slope(float r2)
+{
+    const float inverse = inversesqrt(max(r2, 1e-12)), q = r2 * inverse;
+    const float a = max(2.0 - q, 0.0), b = max(1.0 - q, 0.0);
+    return vec2(a * a * a - 4.0 * (b * b * b), (12.0 * (b * b) - 3.0 * (a * a)) * inverse);
+}
+
 // Walls. Behind a flat wall we think layers of water at rest, at the distances d/2, 3d/2, ... from its face, each
 // spread evenly over its plane. The kernel's integral over a plane at the distance s (in d) is, with
 // int_s^a (a - r)^3 r dr = a (a - s)^4 / 4 - (a - s)^5 / 5,

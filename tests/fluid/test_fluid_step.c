@@ -17,6 +17,8 @@ static double kernel_slope(double q)
     return (-3 * pow(fmax(2 - q, 0), 2) + 12 * pow(fmax(1 - q, 0), 2)) / (4 * M_PI);
 }
 
+#define REACH 1.9 /* spacings: pairs that are farther apart are not listed, see neighbours.glsl */
+
 /* The kernel's integral over a plane at the distance s, by summing up rings. */
 static double plane_by_rings(double s)
 {
@@ -60,7 +62,7 @@ static void reference(const double (*p)[3], uint32_t count, uint32_t i, double *
             r += apart[axis] * apart[axis];
         }
         r = sqrt(r);
-        if (j == i || r >= 2)
+        if (j == i || r >= REACH)
             continue;
         *density += kernel(r);
         squares += pow(kernel_slope(r), 2);
@@ -128,7 +130,7 @@ static void unpack_pair(uint32_t first, uint32_t second, uint32_t *j, double gra
     gradient[2] = (z * 16 + (int32_t)(second >> 28)) / 2047.0;
 }
 
-/* The pairs of a particle: all that are nearer than two spacings, each once, with the gradient 4 pi V grad W. */
+/* The pairs of a particle: all that are nearer than REACH, each once, with the gradient 4 pi V grad W. */
 static void check_pairs(const double (*p)[3], const uint32_t *indices, const uint32_t (*lists)[4],
                         const uint32_t (*gradients)[4], uint32_t count, uint32_t i, uint32_t texels)
 {
@@ -138,7 +140,7 @@ static void check_pairs(const double (*p)[3], const uint32_t *indices, const uin
         double r2 = 0;
         for (int axis = 0; axis < 3; axis++)
             r2 += pow(p[indices[i]][axis] - p[k][axis], 2);
-        expected += k != indices[i] && r2 < 4;
+        expected += k != indices[i] && r2 < REACH * REACH;
     }
     for (uint32_t n = 0; n < 4 * texels; n++) {
         uint32_t j;
