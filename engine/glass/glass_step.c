@@ -390,7 +390,8 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->active_scan, 1);
     over(glass, cmd, glass->active_compact, ALIVE);
     record_rounds(glass, cmd);
-    over(glass, cmd, glass->capture_mark, ACTIVE);
+    /* On a GPU several invocations share a slot, and those of all live slots are enough. */
+    over(glass, cmd, glass->capture_mark, glass->base.context->for_software ? ACTIVE : ALIVE);
     over(glass, cmd, glass->capture, ALIVE);
     virga_pass_end(glass->base.context, cmd, scope);
 }

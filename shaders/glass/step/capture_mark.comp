@@ -2,17 +2,22 @@
 // than a cell. The heavier drop captures the lighter one; this pass marks each drop with its captor. A drop at rest
 // that has not changed touches no new neighbour, so only running drops look around, and those that landed, merged or
 // stopped.
-// One invocation per active slot. Reads: drops, occupants. Writes: captors.
+// One invocation per active slot, or PARTS of them. Reads: drops, occupants. Writes: captors.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #define FEW
 #include "live.glsl"
+#include "gpu/variants.glsl"
 
 #define RUN_TOUCH 0.9 // of the sum of both radii: moving rims merge a little after they meet
 #define MAX_REACH 8.0 // cells
 #define YOUNG_S 0.5   // a tail younger than this is still at the rear of the slow drop that left it
+
+// Active slots are few, and an invocation that reads all cells around one waits for each. On a GPU PARTS invocations
+// share them by columns. The captor is the lowest slot of all that capture a drop, so the order is of no matter.
+const uint PARTS = FOR_GPU ? 8u : 1u;
 
 bool is_running(uint kind) { return (kind & VIRGA_GLASS_RUNNING) != 0u; }
 
@@ -37,11 +42,9 @@ void test_pair(uint slot, uint water, vec2 middle, float radius, bool running, u
         atomicMin(drops[slot].absorbed_by, other);
 }
 
-void main()
+// Looks at every PARTS-th column of the cells around a slot's drop, from column `part` on.
+void look_around(uint slot, uint part)
 {
-    const uint slot = active_slot();
-    if (slot == NONE)
-        return;
     const uint kind = drops[slot].kind;
     if ((kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP || (kind & (VIRGA_GLASS_RUNNING | VIRGA_GLASS_MERGE_CHECK)) == 0u)
         return;
@@ -55,9 +58,16 @@ void main()
     const ivec2 center_cell = cell_at(middle), last = ivec2(tick.pane.columns, tick.pane.rows) - 1;
     const ivec2 from = max(center_cell - reach, ivec2(0)), to = min(center_cell + reach, last);
     for (int y = from.y; y <= to.y; y++)
-        for (int x = from.x; x <= to.x; x++) {
+        for (int x = from.x + int(part); x <= to.x; x += int(PARTS)) {
             const uint other = occupants[cell_number(ivec2(x, y))];
             if (other != 0u && other != slot + 1u)
                 test_pair(slot, water, middle, radius, is_running(kind), other - 1u);
         }
+}
+
+void main()
+{
+    const uint count = PARTS * state.active_count, all = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    for (uint i = gl_GlobalInvocationID.x; i < count; i += all)
+        look_around(slot_of_active(i / PARTS), i % PARTS);
 }
