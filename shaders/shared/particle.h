@@ -12,7 +12,9 @@ typedef struct virga_particle_gpu virga_particle_gpu;
 /* 32 bytes. A particle with a position that is not finite is left out. */
 struct virga_particle_gpu {
     float position[3]; /* m, relative to virga_water_step_info.origin_m */
-    float share;       /* [0; 1] part of its volume that counts: lets particles appear and vanish without a jump */
+    /* [0; 1] part of its volume that counts: lets particles appear and vanish without a jump, e.g. over a tenth of a
+     * second. Spray is drawn in full size with so much of its coverage, and is not handed over below 1. */
+    float share;
     float velocity[3]; /* m/s */
     uint id;           /* the same in all frames; its random numbers depend on it */
 };

@@ -208,6 +208,63 @@ static void particles_appear_and_vanish_without_a_jump(void **state)
     particle_sequence_close(sequence);
 }
 
+/* What a particle's share should be: what has appeared less what has vanished, each along 3 s^2 - 2 s^3 over the time
+ * of fading around the middle between two files. */
+static double faded_share(double time_s, double appears_s, double vanishes_s, double fade_s)
+{
+    const double in = fmin(fmax((time_s - appears_s) / fade_s + 0.5, 0), 1);
+    const double out = fmin(fmax((time_s - vanishes_s) / fade_s + 0.5, 0), 1);
+    return in * in * (3 - 2 * in) * (1 - out * out * (3 - 2 * out));
+}
+
+/* Particle 1 is in all files, 2 in the files 4 to 7, 10 files a second; times in any order. */
+static void a_fade_may_be_longer_than_the_time_between_files(void **state)
+{
+    (void)state;
+    const double fade_s = 0.45;
+    particle_sequence_def def = plain;
+    for (uint32_t i = 0; i < 12; i++) {
+        const row both[2] = {{{0}, {0}, 1}, {{0.2f * (float)i, 0, 0}, {2, 0, 0}, 2}};
+        put_frame(i, both, i >= 4 && i <= 7 ? 2 : 1, WITH_ID | WITH_VELOCITY);
+    }
+    def.fade_s = fade_s;
+    particle_sequence *sequence = open_with(def);
+    for (int step = 0; step < 110; step++) {
+        const double t = 0.01 * (step * 37 % 110), expected = faded_share(t, 0.35, 0.75, fade_s);
+        uint32_t count;
+        const particle_sample *samples = sample(sequence, t, &count);
+        assert_int_equal(count, expected > 0 ? 2 : 1);
+        assert_true(samples[0].id == 1 && samples[0].share == 1);
+        if (count > 1) {
+            assert_true(samples[1].id == 2 && fabs((double)samples[1].share - expected) < 1e-6);
+            assert_true(fabs((double)samples[1].position[0] - 2 * t) < 1e-5);
+        }
+    }
+    particle_sequence_close(sequence);
+}
+
+/* It is gone for one file of many, so it never vanishes, and nobody is there twice. */
+static void a_particle_that_is_missing_for_a_file_fades_a_little(void **state)
+{
+    (void)state;
+    particle_sequence_def def = plain;
+    for (uint32_t i = 0; i < 9; i++) {
+        const row one = {{0.1f * (float)i, 0, 0}, {1, 0, 0}, 5};
+        put_frame(i, &one, i != 4, WITH_ID | WITH_VELOCITY);
+    }
+    def.fade_s = 0.6;
+    particle_sequence *sequence = open_with(def);
+    for (double t = 0; t <= 0.8; t += 0.02) {
+        uint32_t count;
+        const particle_sample *samples = sample(sequence, t, &count);
+        const double out = faded_share(t, -9, 0.35, 0.6), in = faded_share(t, 0.45, 9, 0.6);
+        assert_int_equal(count, 1);
+        assert_true(fabs((double)samples[0].share - fmin(in + out, 1)) < 1e-6 && samples[0].share > 0.6f);
+        assert_true(fabs((double)samples[0].position[0] - t) < 1e-5);
+    }
+    particle_sequence_close(sequence);
+}
+
 static void a_particle_without_a_position_fades_like_one_that_vanished(void **state)
 {
     (void)state;
@@ -367,6 +424,8 @@ int main(void)
         TEST_IN_FOLDER(without_velocities_the_path_is_a_line),
         TEST_IN_FOLDER(without_ids_both_files_fade_and_move_by_their_velocities),
         TEST_IN_FOLDER(particles_appear_and_vanish_without_a_jump),
+        TEST_IN_FOLDER(a_fade_may_be_longer_than_the_time_between_files),
+        TEST_IN_FOLDER(a_particle_that_is_missing_for_a_file_fades_a_little),
         TEST_IN_FOLDER(a_particle_without_a_position_fades_like_one_that_vanished),
         TEST_IN_FOLDER(files_may_have_no_particles),
         TEST_IN_FOLDER(outside_the_files_particles_stand_still),

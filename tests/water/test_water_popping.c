@@ -5,10 +5,10 @@
 
 #include "../host/temporal_picture.h"
 #include "camera.h"
-#include "particle_pair.h"
+#include "particle_fade.h"
 
 enum { WIDTH = 160, HEIGHT = 90, FRAMES = 48, POOL = 24, DEEP = 6, SPRAY = 80 };
-enum { DROPS = 60, GONE = 48, FILES_FRAMES = 4, FILE_MOST = POOL * POOL * DEEP + DROPS };
+enum { DROPS = 60, GONE = 48, FILE_MOST = POOL * POOL * DEEP + DROPS, MANY_FILES = 1000 };
 
 #define FRAME_S    (1.0 / 60)
 #define SPACING_M  0.02
@@ -129,27 +129,62 @@ static void put_drops(file *to, double time_s)
     }
 }
 
+/* What there is of a file and the next one. */
+typedef struct pair_of_files {
+    file a, b;
+    particle_pair pair;
+} pair_of_files;
+
+static int frames_each; /* from a file to the next one */
+static double fade_s;   /* 0: what is not in a file is not there until the next one */
+
 static void make_file(file *to, uint32_t number)
 {
-    const double time_s = number * FILES_FRAMES * FRAME_S;
+    const double time_s = number * frames_each * FRAME_S;
     to->rows = (particles){0, to->position, to->velocity, to->id, NULL};
     put_pool(to, time_s);
     put_drops(to, time_s);
 }
 
-/* As the program has it from files, which are four frames apart. */
+static void open_pair(pair_of_files *two, int64_t number)
+{
+    uint32_t twice;
+    make_file(&two->a, (uint32_t)number);
+    make_file(&two->b, (uint32_t)number + 1);
+    REQUIRE(pair_match(&two->pair, &two->a.rows, &two->b.rows, PARTICLE_IDS_FILE, &twice));
+}
+
+static void fade_files(double files)
+{
+    static pair_of_files two;
+    const fade_window window = fade_window_at(files, fade_half(fade_s, frames_each * FRAME_S), MANY_FILES);
+    fade_edge edges[2 * FADE_MOST_FILES];
+    const fade_edge *pointers[2 * FADE_MOST_FILES];
+    for (int64_t at = window.first; at <= window.last; at++) {
+        open_pair(&two, at);
+        REQUIRE(fade_edge_make(&edges[at - window.first], &two.pair, at));
+        pointers[at - window.first] = &edges[at - window.first];
+        pair_free(&two.pair);
+    }
+    REQUIRE(
+        fade_samples(&window, pointers, frames_each * FRAME_S, MANY_FILES, (particle_sample *)f.particles, &f.count));
+    for (int64_t at = window.first; at <= window.last; at++)
+        fade_edge_free(&edges[at - window.first]);
+}
+
+/* As the program has it from files. */
 static void place_files(double time_s)
 {
-    static file a, b;
+    static pair_of_files two;
     const int frame = (int)lround(time_s / FRAME_S);
-    particle_pair pair;
-    uint32_t twice;
-    make_file(&a, (uint32_t)(frame / FILES_FRAMES));
-    make_file(&b, (uint32_t)(frame / FILES_FRAMES) + 1);
-    REQUIRE(pair_match(&pair, &a.rows, &b.rows, PARTICLE_IDS_FILE, &twice));
-    f.count = pair_mix(&pair, FILES_FRAMES * FRAME_S, (double)(frame % FILES_FRAMES) / FILES_FRAMES,
-                       (particle_sample *)f.particles);
-    pair_free(&pair);
+    const double files = (double)frame / frames_each;
+    open_pair(&two, frame / frames_each);
+    f.count = pair_mix(&two.pair, frames_each * FRAME_S, files - frame / frames_each, (particle_sample *)f.particles);
+    pair_free(&two.pair);
+    if (fade_s > 0)
+        fade_files(files);
+    for (uint32_t i = 0; fade_s == 0 && i < f.count; i++)
+        f.particles[i].share = (float)(f.particles[i].share > 0.5f);
 }
 
 /* ---- frames */
@@ -248,19 +283,37 @@ static void nothing_pops_in_48_frames(void **state)
     REQUIRE(found.worst < 0.24 && found.many < 200); /* 0.254 and 431 where droplets below a pixel are not specks */
 }
 
-/* Without fading: 0.373, RMS 0.0044, 225. A drop shrinks as its share does, and its last pixel goes within a frame. */
-static void particles_that_appear_and_vanish_fade(void **state)
+static change changes_of_files(int frames, double fading_s)
+{
+    frames_each = frames;
+    fade_s = fading_s;
+    return changes_of(place_files);
+}
+
+static void files_fade(int frames)
+{
+    const change sudden = changes_of_files(frames, 0), faded = changes_of_files(frames, 0.1);
+    REQUIRE(faded.worst < 0.45 * sudden.worst && faded.rms < 0.5 * sudden.rms && faded.many < 0.25 * sudden.many);
+}
+
+static void particles_appear_and_vanish_by_degrees_with_files_of_every_fourth_frame(void **state)
 {
     (void)state;
-    const change found = changes_of(place_files);
-    REQUIRE(found.worst < 0.33 && found.rms < 0.0025 && found.many < 120);
+    files_fade(4);
+}
+
+static void particles_appear_and_vanish_by_degrees_with_a_file_for_each_frame(void **state)
+{
+    (void)state;
+    files_fade(1);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_pops_in_48_frames),
-        cmocka_unit_test(particles_that_appear_and_vanish_fade),
+        cmocka_unit_test(particles_appear_and_vanish_by_degrees_with_files_of_every_fourth_frame),
+        cmocka_unit_test(particles_appear_and_vanish_by_degrees_with_a_file_for_each_frame),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -34,6 +34,8 @@ static const scene_row water_rows[] = {
            "time of the first file in the scene; of a solver: when the water begins to move"),
     CHOICE(scene_water, ids, water_ids, "file", RESTARTS,
            "what tells which particle is which: an attribute, the row in the file, or nothing"),
+    NUMBER(scene_water, fade_s, 0, 10, "0.1", RESTARTS,
+           "time in which particles of files appear and vanish, at most 16 times that between files"),
     CHOICE(scene_water, up, water_ups, "y", LIVE, "axis of the files that points up"),
     NUMBER(scene_water, unit_m, 0.000001, 1000000, "1", RESTARTS, "metres of a unit of length in the files"),
     NUMBER(scene_water, position_m, -MAX_METERS, MAX_METERS, "[0, 0, 0]", LIVE, "of the origin of files or solver"),

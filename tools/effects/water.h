@@ -82,7 +82,7 @@ typedef struct scene_water {
     double rate_hz;
     uint32_t step;
     double *first; /* NULL: the smallest number */
-    double start_s;
+    double start_s, fade_s;
     uint32_t ids, up; /* scene_water_ids, scene_water_up */
     double unit_m;
     double position_m[3], rotation_deg[3];

@@ -3,20 +3,29 @@
 
 #include "file.h"
 #include "numbered_files.h"
-#include "particle_pair.h"
+#include "particle_fade.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A file and the next one. */
+typedef struct two_files {
+    particles frames[2];
+    int64_t at[2];      /* which they are; -1: none */
+    particle_pair pair; /* of these two; a NULL: not matched yet */
+} two_files;
+
+enum { MAX_EDGES = 2 * FADE_MOST_FILES };
 
 struct particle_sequence {
     particle_sequence_def def;
     numbered_files files;
     uint32_t first, count; /* number of the first file, and how many there are */
 
-    particles frames[2]; /* the files around the newest time */
-    int64_t at[2];       /* which they are; -1: none */
-    particle_pair pair;  /* of these two; a NULL: not matched yet */
+    two_files now;              /* the files around the newest time */
+    two_files near;             /* those of which the edge was listed last */
+    fade_edge edges[MAX_EDGES]; /* by the number of their file, modulo MAX_EDGES */
     particle_sample *samples;
     size_t room;
 };
@@ -94,7 +103,10 @@ bool particle_sequence_open(particle_sequence **opened, const particle_sequence_
     }
     sequence->def = *def;
     sequence->def.files = files;
-    sequence->at[0] = sequence->at[1] = -1;
+    for (int slot = 0; slot < 2; slot++)
+        sequence->now.at[slot] = sequence->near.at[slot] = -1;
+    for (int edge = 0; edge < MAX_EDGES; edge++)
+        sequence->edges[edge].at = -1;
     if (!numbered_files_parse(&sequence->files, files, error, error_size) || !list_files(sequence, error, error_size)) {
         particle_sequence_close(sequence);
         return false;
@@ -103,13 +115,21 @@ bool particle_sequence_open(particle_sequence **opened, const particle_sequence_
     return true;
 }
 
+static void free_two(two_files *two)
+{
+    pair_free(&two->pair);
+    particles_free(&two->frames[0]);
+    particles_free(&two->frames[1]);
+}
+
 void particle_sequence_close(particle_sequence *sequence)
 {
     if (!sequence)
         return;
-    pair_free(&sequence->pair);
-    particles_free(&sequence->frames[0]);
-    particles_free(&sequence->frames[1]);
+    free_two(&sequence->now);
+    free_two(&sequence->near);
+    for (int edge = 0; edge < MAX_EDGES; edge++)
+        fade_edge_free(&sequence->edges[edge]);
     free((char *)sequence->def.files);
     numbered_files_free(&sequence->files);
     free(sequence->samples);
@@ -128,46 +148,57 @@ double particle_sequence_duration(const particle_sequence *sequence)
 
 /* ---- a time */
 
-static bool load(particle_sequence *sequence, int slot, uint32_t index, char *error, size_t error_size)
+static bool load(const particle_sequence *sequence, two_files *two, int slot, uint32_t index, char *error,
+                 size_t error_size)
 {
-    if (sequence->at[slot] == index)
+    if (two->at[slot] == index)
         return true;
-    pair_free(&sequence->pair);
-    particles_free(&sequence->frames[slot]);
-    sequence->at[slot] = -1;
+    pair_free(&two->pair);
+    particles_free(&two->frames[slot]);
+    two->at[slot] = -1;
     char *path = particle_sequence_path(sequence, index);
-    const bool ok = path ? particles_read(path, &sequence->frames[slot], error, error_size)
+    const bool ok = path ? particles_read(path, &two->frames[slot], error, error_size)
                          : file_fail(error, error_size, "%s: no memory", sequence->def.files);
     free(path);
     if (ok)
-        sequence->at[slot] = index;
+        two->at[slot] = index;
     return ok;
 }
 
-static void swap_frames(particle_sequence *sequence)
+static void swap_frames(two_files *two)
 {
-    const particles frame = sequence->frames[0];
-    const int64_t at = sequence->at[0];
-    pair_free(&sequence->pair);
-    sequence->frames[0] = sequence->frames[1];
-    sequence->at[0] = sequence->at[1];
-    sequence->frames[1] = frame;
-    sequence->at[1] = at;
+    const particles frame = two->frames[0];
+    const int64_t at = two->at[0];
+    pair_free(&two->pair);
+    two->frames[0] = two->frames[1];
+    two->at[0] = two->at[1];
+    two->frames[1] = frame;
+    two->at[1] = at;
 }
 
-static bool match(particle_sequence *sequence, char *error, size_t error_size)
+static bool match(const particle_sequence *sequence, two_files *two, char *error, size_t error_size)
 {
     uint32_t twice;
-    const particles *a = &sequence->frames[0], *b = &sequence->frames[1];
-    if (sequence->pair.a || pair_match(&sequence->pair, a, b, sequence->def.ids, &twice))
+    const particles *a = &two->frames[0], *b = &two->frames[1];
+    if (two->pair.a || pair_match(&two->pair, a, b, sequence->def.ids, &twice))
         return true;
     if (twice == PAIR_NONE)
         return file_fail(error, error_size, "%s: no memory for %u particles", sequence->def.files, a->count + b->count);
-    char *path = particle_sequence_path(sequence, (uint32_t)sequence->at[1]);
+    char *path = particle_sequence_path(sequence, (uint32_t)two->at[1]);
     file_fail(error, error_size, "cannot use %s: particle %u has the id %u, as one before it; expected different ids",
               path ? path : sequence->def.files, twice, b->id[twice]);
     free(path);
     return false;
+}
+
+/* A file, and if so wanted the next one with who is who. */
+static bool load_two(const particle_sequence *sequence, two_files *two, uint32_t index, bool both, char *error,
+                     size_t error_size)
+{
+    if (two->at[0] != index && two->at[1] == index)
+        swap_frames(two);
+    return load(sequence, two, 0, index, error, error_size) &&
+           (!both || (load(sequence, two, 1, index + 1, error, error_size) && match(sequence, two, error, error_size)));
 }
 
 static bool reserve(particle_sequence *sequence, size_t count, char *error, size_t error_size)
@@ -182,6 +213,46 @@ static bool reserve(particle_sequence *sequence, size_t count, char *error, size
     return true;
 }
 
+/* Lists the edges around a time that are not listed yet. */
+static bool list_edges(particle_sequence *sequence, const fade_window *window, const fade_edge *edges[static MAX_EDGES],
+                       char *error, size_t error_size)
+{
+    for (int64_t at = window->first; at <= window->last; at++) {
+        fade_edge *edge = &sequence->edges[at % MAX_EDGES];
+        edges[at - window->first] = edge;
+        if (edge->at == at)
+            continue;
+        fade_edge_free(edge);
+        const bool is_now = sequence->now.pair.a && sequence->now.at[0] == at;
+        two_files *two = is_now ? &sequence->now : &sequence->near;
+        if (!load_two(sequence, two, (uint32_t)at, true, error, error_size))
+            return false;
+        if (!fade_edge_make(edge, &two->pair, at))
+            return file_fail(error, error_size, "%s: no memory", sequence->def.files);
+    }
+    return true;
+}
+
+/* Fades what the two files around a time do not tell. Without ids there is nothing more. */
+static bool fade(particle_sequence *sequence, double files, double interval_s, uint32_t *count, char *error,
+                 size_t error_size)
+{
+    const fade_window window = fade_window_at(files, fade_half(sequence->def.fade_s, interval_s), sequence->count);
+    const bool paired = !sequence->now.pair.a || sequence->now.pair.partner_of_a;
+    const fade_edge *edges[MAX_EDGES];
+    size_t room = *count;
+    if (window.half_fade <= 0.5 || sequence->def.ids == PARTICLE_IDS_NONE || !paired)
+        return true;
+    if (!list_edges(sequence, &window, edges, error, error_size))
+        return false;
+    for (int64_t edge = window.first; edge <= window.last; edge++)
+        room += edges[edge - window.first]->count;
+    if (!reserve(sequence, room, error, error_size))
+        return false;
+    return fade_samples(&window, edges, interval_s, sequence->count, sequence->samples, count) ||
+           file_fail(error, error_size, "%s: no memory for %zu particles", sequence->def.files, room);
+}
+
 bool particle_sequence_at(particle_sequence *sequence, double time_s, const particle_sample **samples, uint32_t *count,
                           char *error, size_t error_size)
 {
@@ -189,16 +260,15 @@ bool particle_sequence_at(particle_sequence *sequence, double time_s, const part
     const double files = time_s / interval;
     const bool rest = !(files >= 0 && files < last); /* outside, or no number */
     const uint32_t index = rest ? (files >= last && last > 0 ? (uint32_t)last : 0) : (uint32_t)files;
-    if (sequence->at[0] != index && sequence->at[1] == index)
-        swap_frames(sequence);
-    if (!load(sequence, 0, index, error, error_size) || (!rest && !load(sequence, 1, index + 1, error, error_size)))
+    two_files *now = &sequence->now;
+    if (!load_two(sequence, now, index, !rest, error, error_size))
         return false;
-    const particles *a = &sequence->frames[0], *b = &sequence->frames[1];
-    if (!reserve(sequence, (size_t)a->count + (rest ? 1 : b->count + (size_t)1), error, error_size) ||
-        (!rest && !match(sequence, error, error_size)))
+    const particles *a = &now->frames[0], *b = &now->frames[1];
+    if (!reserve(sequence, (size_t)a->count + (rest ? 1 : b->count + (size_t)1), error, error_size))
         return false;
-    *count =
-        rest ? pair_rest(a, sequence->samples) : pair_mix(&sequence->pair, interval, files - index, sequence->samples);
+    *count = rest ? pair_rest(a, sequence->samples) : pair_mix(&now->pair, interval, files - index, sequence->samples);
+    if (!fade(sequence, files, interval, count, error, error_size))
+        return false;
     *samples = sequence->samples;
     return true;
 }

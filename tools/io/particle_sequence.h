@@ -6,9 +6,12 @@
  * has moves with its velocity, and fades.
  *
  * Fading is the share of a particle's volume that counts. It goes from 0 to 1 along 3 s^2 - 2 s^3, so neither it nor
- * its rate of change jumps. It takes the time between two files: with a file for each frame a particle is there in one
- * frame and not in the next. Before the first file and after the last one the particles stand still. A particle whose
- * position is not finite is not there. */
+ * its rate of change jumps. It takes the time `fade_s` around the middle between the two files of which one has the
+ * particle, and no less than the time from one to the other: a particle that vanishes begins to fade before its last
+ * file, and goes on by its velocity after it. Files are read ahead and behind for that, up to eight each, so a picture
+ * depends on its time alone. Without ids nobody knows what appears, and fading takes the time between two files. Before
+ * the first file and after the last one the particles stand still. A particle whose position is not finite is not
+ * there. */
 #ifndef VIRGA_IO_PARTICLE_SEQUENCE_H
 #define VIRGA_IO_PARTICLE_SEQUENCE_H
 
@@ -28,6 +31,7 @@ typedef struct particle_sequence_def {
     uint32_t step;     /* from one number to the next; at least 1 */
     int64_t first;     /* the number at time 0; negative: the smallest there is */
     particle_ids ids;
+    double fade_s; /* time that particles take to appear or vanish; at most 16 times that between two files */
 } particle_sequence_def;
 
 /* As a virga_particle_gpu: 32 bytes. */
@@ -52,7 +56,8 @@ double particle_sequence_duration(const particle_sequence *sequence);
 char *particle_sequence_path(const particle_sequence *sequence, uint32_t index);
 
 /* The particles at a time, until the next call: those of the earlier file by their rows, then those that only the later
- * one has. Reads at most two files, and none that the last call has read. */
+ * one has. Reads the two files around it, none that the last call has read, and with a longer fade_s those that it
+ * needs to know what appears and vanishes: a file for each further one in time, all of them after a jump. */
 bool particle_sequence_at(particle_sequence *sequence, double time_s, const particle_sample **samples, uint32_t *count,
                           char *error, size_t error_size);
 

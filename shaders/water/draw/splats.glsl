@@ -26,6 +26,17 @@
 #define PUSH 1.5     // radii
 #define MAX_PUSH 20.0 // of what is seen at grazing angles
 
+// The weight of a surfel of a droplet, as a factor of what its area gives; negative: it is a speck. Small droplets are
+// specks. One whose particle appears or vanishes is made of specks as well, as only they cover a part of a pixel. They
+// cover as much as its share; those of one that is no speck by its size cover all from half of the share on, and from
+// there on turn into a surface one by one.
+float droplet_factor(Surfel s, float droplet_px)
+{
+    const float specks = 1.0 - smoothstep(SPECK_PX, NO_SPECK_PX, droplet_px), whole = mix(0.5, 1.0, specks);
+    const float fading = min((1.0 - s.share) / max(1.0 - whole, 1e-3), 1.0);
+    return s.turn < max(specks, fading) ? -min(s.share / whole, 1.0) : 1.0;
+}
+
 vec2 motion_of(Surfel s, vec4 now)
 {
     const vec3 before = s.position - s.velocity * view.frame_interval_s;
@@ -72,12 +83,12 @@ Splat splat_of(Surfel s)
     const float push = min(PUSH * wide + off, MAX_PUSH * wide) / length(s.position);
     const vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
     const float droplet_px = s.droplet / pixel_m;
-    const bool is_speck = s.droplet > 0.0 && s.turn < 1.0 - smoothstep(SPECK_PX, NO_SPECK_PX, droplet_px);
+    const float factor = s.droplet > 0.0 ? droplet_factor(s, droplet_px) : 1.0;
     const float scale = depth_scale(s, cosine, vec2(wide, narrow) / pixel_m, radius / pixel_m, droplet_px,
-                                    is_speck);
+                                    factor < 0.0);
     const vec2 facing = facing_of(s.normal), motion = motion_of(s, center);
     return Splat(uvec4(floatBitsToUint(center.xyw), pack_facing(facing)),
-                 uvec4(floatBitsToUint(a), (halves(is_speck ? -weight : weight, 0.0) & 0xffffu) |
+                 uvec4(floatBitsToUint(a), (halves(factor * weight, 0.0) & 0xffffu) |
                                                pack_push_scale(vec2(push, scale))),
                  uvec4(floatBitsToUint(b), halves(motion.x, motion.y)));
 }

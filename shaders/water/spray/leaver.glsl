@@ -7,7 +7,9 @@
 // by then stays where it landed, and the particle is smaller by as much. So no water is there twice.
 #include "water/spray_part.glsl"
 
-uint particle_nl(uint particle) { return uint(frame.volume_nl * clamp(particles[particle].share, 0.0, 1.0) + 0.5); }
+float share_of(uint particle) { return clamp(particles[particle].share, 0.0, 1.0); }
+
+uint particle_nl(uint particle) { return uint(frame.volume_nl * share_of(particle) + 0.5); }
 
 // Water that is still the particle's.
 uint own_nl(uint particle, uint given_nl) { return particle_nl(particle) - min(given_nl, particle_nl(particle)); }
@@ -52,10 +54,12 @@ bool is_done(inout virga_leaver_gpu own, float part)
 }
 
 // Whether its droplets are to be handed over. A particle that is new here stays for a step, so that its droplets have
-// been seen where it was.
+// been seen where it was. One that appears or vanishes stays until all of it is there: it is drawn by its share, which
+// other effects do not know.
 void decide_to_leave(inout virga_leaver_gpu own, float part, uint before)
 {
-    const bool leaves = frame.hands_over != 0u && before < frame.max_splashes && part >= 1.0 && own.age > 0.0 &&
+    const bool is_whole = part >= 1.0 && share_of(own.particle) >= 1.0;
+    const bool leaves = frame.hands_over != 0u && before < frame.max_splashes && is_whole && own.age > 0.0 &&
                         own.age >= frame.hand_age_s && own.pieces > 0u &&
                         own_nl(own.particle, own.given_nl) >= own.pieces;
     own.flags |= leaves ? VIRGA_LEAVER_LEAVING : 0u;

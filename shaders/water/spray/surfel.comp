@@ -4,12 +4,13 @@
 // another. Rays that end inside another droplet have a surfel without area.
 //
 // Equation 4 with the radius h' = frame.spray_kernel R_s: W'' = frame.spray_factor (1 - (r / h')^2)^3.
-// One invocation per surfel. Reads: droplets. Writes: surfels.
+// One invocation per surfel. Reads: droplets, splashes, particles. Writes: surfels.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
 #include "water/octahedron.glsl"
+#include "water/surfel_share.glsl"
 #include "gpu/texels.glsl"
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
@@ -17,8 +18,8 @@ layout(local_size_x = VIRGA_WATER_LANES) in;
 layout(std430, set = 0, binding = 15) writeonly buffer Surfels { uvec4 surfels[]; };
 TEXELS(droplet_texel, 16, 14)
 
-// The droplets of the same particle: their number is that of the particle's pieces, and they follow each other.
-uvec2 family_of(uint droplet)
+// The splash particle of a droplet.
+uint splash_of(uint droplet)
 {
     uint first = 0u, end = state.splashes;
     while (first + 1u < end) {
@@ -28,8 +29,14 @@ uvec2 family_of(uint droplet)
         else
             end = middle;
     }
-    const uint start = droplet_starts[first];
-    return uvec2(start, min(start + splashes[splash_now(first)].pieces, state.droplets));
+    return first;
+}
+
+// The droplets of the same particle: their number is that of the particle's pieces, and they follow each other.
+uvec2 family_of(uint splash)
+{
+    const uint start = droplet_starts[splash];
+    return uvec2(start, min(start + splashes[splash_now(splash)].pieces, state.droplets));
 }
 
 // Density of a family at a position; w: density, xyz: its gradient.
@@ -62,7 +69,9 @@ void main()
     const uint droplet = own / VIRGA_WATER_DROPLET_SURFELS, surfel = state.first_spray_surfel + own;
     const vec4 ball = uintBitsToFloat(droplet_texel(2u * droplet));
     const uvec4 motion = droplet_texel(2u * droplet + 1u);
-    const uvec2 family = family_of(droplet);
+    const uint splash = splash_of(droplet);
+    const uvec2 family = family_of(splash);
+    const float share = particles[splashes[splash_now(splash)].particle].share;
     const vec3 along = direction(own % VIRGA_WATER_DROPLET_SURFELS, motion.w);
     // The droplet's own density reaches the level at its radius and 0 at h'. What others add moves the surface
     // outwards.
@@ -84,5 +93,5 @@ void main()
         normal = length2 > 1e-20 ? -gradient * inversesqrt(length2) : along;
     }
     surfels[2u * surfel] = uvec4(floatBitsToUint(ball.xyz + radius * along), pack_octahedron(normal));
-    surfels[2u * surfel + 1u] = uvec4(motion.xyz, floatBitsToUint(size));
+    surfels[2u * surfel + 1u] = uvec4(motion.xyz, floatBitsToUint(radius_with_share(size, share)));
 }

@@ -22,7 +22,8 @@ bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, 
                                        .rate_hz = from->rate_hz,
                                        .step = from->step,
                                        .first = from->first ? (int64_t)*from->first : -1,
-                                       .ids = (particle_ids)from->ids};
+                                       .ids = (particle_ids)from->ids,
+                                       .fade_s = from->fade_s};
     char reason[1024];
     return particle_sequence_open(sequence, &def, reason, sizeof reason) ||
            scene_file_refuse(scene, "water.files", error, error_size, "%s", reason);
