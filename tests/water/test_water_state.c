@@ -4,6 +4,8 @@
 #include "../host/wrong_words.h"
 #include "water_fixture.h"
 
+#include "gpu/state_bytes.h"
+
 #define STEP_S (1.0 / 64)
 
 static uint32_t number = 12;
@@ -155,11 +157,46 @@ static void wrong_contents_do_no_harm(void **state)
     close_cloud();
 }
 
+/* The load says one line with these words, and the water goes on as if nobody had tried. */
+static void check_refused(const host_buffer *blob, const char *words)
+{
+    f.lines = 0;
+    REQUIRE(load(blob) == VIRGA_ERROR_INVALID);
+    if (f.lines != 1 || !strstr(f.said, words))
+        fail_msg("%u lines, the last '%s'; expected one with '%s'", f.lines, f.said, words);
+    run(1);
+    assert_int_equal(f.lines, 1);
+}
+
+static void a_state_of_an_older_format_is_refused_with_one_line(void **state)
+{
+    (void)state;
+    host_buffer blob;
+    open_cloud();
+    open_blob(&blob);
+    run(2);
+    save(&blob);
+    virga_state_header *header = blob.mapped;
+    virga_state_section *section = (virga_state_section *)(header + 1);
+    header->version = VIRGA_STATE_VERSION - 1;
+    REQUIRE(virga_state_seal(blob.mapped, blob.size, header->frame_index, NULL) == VIRGA_OK);
+    check_refused(&blob, "format version 0, expected 1");
+
+    /* Of the same version, by a program whose foam had smaller particles. */
+    header->version = VIRGA_STATE_VERSION;
+    section->device_bytes -= 1024;
+    REQUIRE(virga_state_seal(blob.mapped, blob.size, header->frame_index, NULL) == VIRGA_OK);
+    check_refused(&blob, "the state of water_def has ");
+    host_buffer_destroy(&f.gpu.device, &blob);
+    close_cloud();
+}
+
 int main(int count, char **arguments)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loaded_water_goes_on_with_the_same_bits),
         cmocka_unit_test(wrong_contents_do_no_harm),
+        cmocka_unit_test(a_state_of_an_older_format_is_refused_with_one_line),
     };
     number = count > 1 ? (uint32_t)strtoul(arguments[1], NULL, 10) : number;
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

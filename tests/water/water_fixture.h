@@ -22,6 +22,8 @@ typedef struct water_fixture {
     double origin_m[3], time_s;
     VkBuffer bodies; /* (optional) of the next step */
     bool sub_frame;
+    uint32_t lines; /* of the log: warnings and errors */
+    char said[512]; /* the last of them */
     /* Read back. */
     const float *densities;
     const virga_surfel_gpu *surfels;
@@ -44,10 +46,20 @@ static inline virga_water_def water_fixture_def(void)
     return def;
 }
 
+static inline void water_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    water_fixture *f = user;
+    effect_fixture_log(NULL, level, id, text);
+    if (level > VIRGA_LOG_WARNING)
+        return;
+    f->lines++;
+    snprintf(f->said, sizeof f->said, "%s", text);
+}
+
 static inline void water_fixture_open_with(water_fixture *f, const virga_water_def *def, bool timings)
 {
     memset(f, 0, sizeof *f);
-    f->context = effect_fixture_open(&f->gpu, timings, effect_fixture_log, NULL);
+    f->context = effect_fixture_open(&f->gpu, timings, water_fixture_log, f);
     REQUIRE(virga_water_create(f->context, def, &f->water) == VIRGA_OK);
     f->settings = virga_default_water_settings();
     f->settings.spray_density = 0; /* only test_water_spray.c has spray */
