@@ -111,6 +111,36 @@ static void a_particle_covers_its_disc(void **state)
     shot_close(&s);
 }
 
+/* It is at (0.05, 0.02, 0) when the shutter closes, and has come (0.1, 0, 0) since it opened. It covers as much as one
+ * that stands still, evenly over its way: the mean is in the middle, and the variance along it is that of a line of
+ * the length L and a disc, L^2 / 12 + 3 R^2 / 16 with the disc's own weights 1 - q^4. */
+static void foam_that_moves_leaves_a_streak_with_the_same_cover(void **state)
+{
+    (void)state;
+    double sum = 0, mean[2] = {0}, square = 0;
+    set_up();
+    s.open_shutter_s = 0.05;
+    add(0.05, 0.02, 0, 0.008, VIRGA_FOAM_SURFACE);
+    in->foam[0].moved[0] = 2;
+    draw();
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double covered = (double)s.pixels[4 * i + 3], at[2] = {i % SIDE + 0.5, i / SIDE + 0.5};
+        sum += covered;
+        square += covered * at[0] * at[0];
+        for (int axis = 0; axis < 2; axis++)
+            mean[axis] += covered * at[axis];
+    }
+    const double px = px_of(0.008), expected = 2.0 / 3 * 0.3 * M_PI * px * px, length = px_of(0.1);
+    const double deviation = sqrt(square / sum - mean[0] / sum * mean[0] / sum);
+    printf("covers %.4f px, expected %.4f; middle %.3f, %.3f; deviation %.3f px\n", sum, expected, mean[0] / sum,
+           mean[1] / sum, deviation);
+    assert_float_equal(sum / expected, 1, 0.05);
+    assert_float_equal(mean[0] / sum, 0.5 * SIDE, 0.1);
+    assert_float_equal(mean[1] / sum, 0.5 * SIDE - px_of(0.02), 0.1);
+    assert_float_equal(deviation, sqrt(length * length / 12 + 3 * px * px / 16), 0.1);
+    shot_close(&s);
+}
+
 /* Particles over each other cover 1 - (1 - a)^n, whatever their order is. */
 static void many_particles_cover_softly(void **state)
 {
@@ -194,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_particle_covers_its_disc),
+        cmocka_unit_test(foam_that_moves_leaves_a_streak_with_the_same_cover),
         cmocka_unit_test(many_particles_cover_softly),
         cmocka_unit_test(foam_is_white),
         cmocka_unit_test(bubbles_are_seen_through_the_water),

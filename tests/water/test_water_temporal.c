@@ -60,6 +60,7 @@ static virga_view view_of(const shot *s)
 {
     virga_view view = virga_default_view();
     host_camera_view(&s->camera, &s->camera, FRAME_S, &view);
+    view.shutter_s = 0; /* foam is drawn in the middle of its way; vectors are of the moment */
     memcpy(view.temporal.position_m, s->before.position_m, sizeof s->before.position_m);
     memcpy(view.temporal.view_from_world, s->before.view_from_world, sizeof s->before.view_from_world);
     memcpy(view.temporal.clip_from_view, s->before.clip_from_view, sizeof s->before.clip_from_view);

@@ -23,6 +23,7 @@ typedef struct shot {
     void (*after_step)(struct shot *s, VkCommandBuffer cmd); /* (optional) changes what the step made */
     host_camera camera, before;                              /* of this frame and of the one before */
     double frame_interval_s, fov_deg;                        /* 0: FOV_DEG */
+    double open_shutter_s;                                   /* 0: pictures of a moment */
     bool reversed, no_color, no_depth;
     /* The scene: radiance and distance from the eye in a direction; INFINITY is the sky. NULL: a checkered floor. */
     double (*scene)(const struct shot *s, const double eye[3], const double direction[3], double rgb[3]);
@@ -171,6 +172,7 @@ static inline virga_view shot_view(const shot *s)
     host_camera_view(&s->camera, &s->before, s->frame_interval_s, &view);
     if (s->reversed)
         picture_reverse_depth(&view);
+    view.shutter_s = s->open_shutter_s;
     if (!s->no_depth)
         view.depth = shot_image(&s->depth);
     if (!s->no_color)

@@ -34,6 +34,7 @@ layout(std430, set = 0, binding = 22) writeonly buffer FoamSplats { uvec4 foam_s
 
 #define WHITE 0.9
 #define MIN_PX 0.75   // smaller ones are drawn with this radius and less coverage
+#define MAX_STREAK_PX 4096.0 // far from where a half float ends
 #define APPEARS_S 0.08
 #define DISSOLVES_S 0.5
 
@@ -82,6 +83,18 @@ float coverage_of_kind(virga_foam_gpu own)
     return look.foam_coverage * there * (own.kind == VIRGA_FOAM_SURFACE ? 1.0 : 0.6);
 }
 
+// How far it has come in the picture since the shutter opened, in pixels of the target. Without this, a picture of a
+// few sub-frames has rows of dots where foam is fast.
+vec2 streak_of(vec3 p, vec3 velocity, vec4 clip)
+{
+    const vec4 opened = project(to_mat(view.open_clip_from_rel),
+                                p - (view.time_close_s - view.time_open_s) * velocity);
+    if (!(min(opened.w, clip.w) > NEAR_W))
+        return vec2(0.0);
+    const vec2 streak = 0.5 * (clip.xy / clip.w - opened.xy / opened.w) * vec2(view.viewport[2], view.viewport[3]);
+    return clamp(streak, vec2(-MAX_STREAK_PX), vec2(MAX_STREAK_PX));
+}
+
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
@@ -90,12 +103,14 @@ void main()
     const virga_foam_gpu own = foam[slots[index]];
     const vec3 p = to_vec(own.position) + to_vec(view.origin_offset) - look.foam_late_s * to_vec(own.moved);
     const vec4 clip = project(to_mat(view.clip_from_rel), p);
-    foam_splats[FOAM_TEXELS * index] = floatBitsToUint(clip);
+    const vec2 streak = streak_of(p, to_vec(own.moved), clip);
+    foam_splats[FOAM_TEXELS * index] = uvec4(floatBitsToUint(clip.xyw), halves(streak.x, streak.y));
     float radius = own.radius / (view.pixel_angle * clip.w), covered = coverage_of_kind(own);
     if (radius < MIN_PX)
         covered *= radius * radius / (MIN_PX * MIN_PX);
     radius = max(radius, MIN_PX);
-    const vec2 edge = clip.w + 2.0 * radius * clip.w / vec2(view.viewport[2], view.viewport[3]);
+    covered *= kept_by_streak(length(streak) / radius);
+    const vec2 edge = clip.w + 2.0 * (radius + abs(streak)) * clip.w / vec2(view.viewport[2], view.viewport[3]);
     if (!(clip.w > NEAR_W) || any(greaterThan(abs(clip.xy), edge)) || covered < 1e-3) {
         foam_splats[FOAM_TEXELS * index + 1u] = uvec4(0u);
         return;
