@@ -80,6 +80,37 @@ static void a_droplet_covers_its_disc_whatever_its_size(void **state)
     REQUIRE(worst[0] < 0.12 && worst[1] < 0.2);
 }
 
+/* A droplet of 0.8 px that comes 24 px along x while the shutter is open covers as much as at rest, around the middle of
+ * its way. The variance along x grows by L^2 / 12. */
+static void a_speck_that_moves_leaves_a_streak_with_the_same_cover(void **state)
+{
+    (void)state;
+    const double distance = droplet_radius() * pixels_at(1) / 0.8, at[3] = {0, 0, distance}, length = 24;
+    double covered[2], middle[2], variance[2];
+    open_spray();
+    s.open_shutter_s = 0.02;
+    for (int moves = 0; moves < 2; moves++) {
+        double sums[3] = {0};
+        s.f.count = 0;
+        water_fixture_add(&s.f, 0, 0, 0)->velocity[0] =
+            moves ? (float)(length / pixels_at(distance) / s.open_shutter_s) : 0;
+        shot_aim(&s, at, origin);
+        shot_draw(&s);
+        for (int i = 0; i < SIDE * SIDE; i++)
+            for (int k = 0; k < 3; k++)
+                sums[k] += (double)s.pixels[4 * i + 3] * pow(i % SIDE + 0.5, k);
+        covered[moves] = sums[0];
+        middle[moves] = sums[1] / sums[0];
+        variance[moves] = sums[2] / sums[0] - middle[moves] * middle[moves];
+    }
+    printf("covers %.3f px at rest and %.3f, with its middle at %.2f and %.2f; deviation %.3f px\n", covered[0],
+           covered[1], middle[0], middle[1], sqrt(variance[1] - variance[0]));
+    assert_float_equal(covered[1] / covered[0], 1, 0.05);
+    assert_float_equal(middle[1] - middle[0], -0.5 * length, 0.2);
+    assert_float_equal(sqrt(variance[1] - variance[0]), length / sqrt(12), 0.2);
+    shot_close(&s);
+}
+
 #define WALL    50  /* particles along its sides */
 #define WALL_M  1.0 /* its width */
 #define APART_M 0.2 /* from the wall to the droplets */
@@ -126,6 +157,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_droplet_covers_its_disc_whatever_its_size),
+        cmocka_unit_test(a_speck_that_moves_leaves_a_streak_with_the_same_cover),
         cmocka_unit_test(droplets_make_no_holes_in_water_behind_them),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

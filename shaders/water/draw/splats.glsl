@@ -59,6 +59,31 @@ float depth_scale(Surfel s, float cosine, vec2 size_px, float radius_px, float d
     return mix(0.7, near_scale, smoothstep(MIN_PX, 2.0 * MIN_PX, radius_px));
 }
 
+#define MIN_STREAK_PX 1.0
+#define MAX_STREAK_PX 1024.0
+
+// How far a surfel has come in the picture since the shutter opened, in pixels. Specks are drawn along it: else a
+// picture of a few sub-frames has rows of dots where spray is fast.
+vec2 streak_of(Surfel s, vec4 now)
+{
+    const vec3 opened = s.position - s.velocity * (view.time_close_s - view.time_open_s);
+    const vec2 streak = -motion_px(now, project(to_mat(view.open_clip_from_rel), opened)) * look.scale;
+    return clamp(streak, vec2(-MAX_STREAK_PX), vec2(MAX_STREAK_PX));
+}
+
+// The ellipse of a speck that moves by `streak` pixels: its center, its two axes, and the factor of its weight against
+// that of a disc of `radius_px`. The weight (1 - r^2)^2 has the variance A^2 / 8 along an axis A, and a segment of the
+// length L has L^2 / 12: A^2 = radius^2 + 2 L^2 / 3.
+float stretch_speck(vec2 streak, float radius_px, inout vec4 center, out vec3 first, out vec3 second)
+{
+    const float length_px = length(streak), axis_px = sqrt(radius_px * radius_px + length_px * length_px / 1.5);
+    const vec2 along = streak / length_px, clip_of_px = 2.0 * center.w / vec2(look.width, look.height);
+    first = vec3(axis_px * along * clip_of_px, 0.0);
+    second = vec3(radius_px * vec2(-along.y, along.x) * clip_of_px, 0.0);
+    center.xy -= 0.5 * streak * clip_of_px;
+    return radius_px / axis_px;
+}
+
 // The three texels of a splat.
 struct Splat {
     uvec4 one, two, three;
@@ -67,7 +92,7 @@ struct Splat {
 Splat splat_of(Surfel s)
 {
     const mat4 clip_from_rel = to_mat(view.clip_from_rel);
-    const vec4 center = project(clip_from_rel, s.position);
+    vec4 center = project(clip_from_rel, s.position);
     const vec3 eye = -normalize(s.position);
     const float cosine = clamp(dot(s.normal, eye), 1e-3, 1.0), sine = sqrt(1.0 - cosine * cosine);
     const float pixel_m = look.pixel_angle * center.w, radius = look.surfel_scale * s.radius;
@@ -77,16 +102,18 @@ Splat splat_of(Surfel s)
     const vec3 across = cross(eye, aside);
     const vec3 second = radius * cross(s.normal, aside) + across * (narrow - radius * cosine);
     // The integral of (1 - r^2)^2 over a disc is a third of its area.
-    const float weight = 3.0 * s.area * cosine / (3.14159265 * wide * narrow);
+    float weight = 3.0 * s.area * cosine / (3.14159265 * wide * narrow);
     // What was made wider without being tilted lies in front of the surface or behind it by so much.
     const float off = (narrow - radius * cosine) * sine / cosine;
     const float push = min(PUSH * wide + off, MAX_PUSH * wide) / length(s.position);
-    const vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
+    vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
     const float droplet_px = s.droplet / pixel_m;
     const float factor = s.droplet > 0.0 ? droplet_factor(s, droplet_px) : 1.0;
     const float scale = depth_scale(s, cosine, vec2(wide, narrow) / pixel_m, radius / pixel_m, droplet_px,
                                     factor < 0.0);
-    const vec2 facing = facing_of(s.normal), motion = motion_of(s, center);
+    const vec2 facing = facing_of(s.normal), motion = motion_of(s, center), streak = streak_of(s, center);
+    if (factor < 0.0 && dot(streak, streak) > MIN_STREAK_PX * MIN_STREAK_PX)
+        weight *= stretch_speck(streak, sqrt(wide * narrow) / pixel_m, center, a, b);
     return Splat(uvec4(floatBitsToUint(center.xyw), pack_facing(facing)),
                  uvec4(floatBitsToUint(a), (halves(factor * weight, 0.0) & 0xffffu) |
                                                pack_push_scale(vec2(push, scale))),
