@@ -425,7 +425,8 @@ VIRGA_API virga_result virga_water_draw_view(virga_water *water, VkCommandBuffer
 
 /* Draws the foam of the view that was prepared, inside rendering, after virga_water_draw. Scenes draw both. Foam under
  * the surface is seen through the water. Foam that moves in the picture is a streak, as long as its way while the
- * shutter is open (virga_view.shutter_s); it covers as much as at rest, and lies around the middle of its way. VIRGA_OK without max_foam; otherwise as virga_water_draw. */
+ * shutter is open (virga_view.shutter_s); it covers as much as at rest, and lies around the middle of its way.
+ * VIRGA_OK without max_foam; otherwise as virga_water_draw. */
 VIRGA_API virga_result virga_water_draw_foam(virga_water *water, VkCommandBuffer cmd, const virga_target *target);
 
 /* The same for any view that was prepared in this frame, as virga_water_draw_view. */

@@ -1,5 +1,6 @@
 /* bench.c - `virga bench water`: a pool with waves and spray, from particles to the picture, pass by pass. */
 #include "bench/bench.h"
+#include "bench/model/counting.h"
 #include "options.h"
 #include "progress.h"
 #include "water/bench_water.h"
@@ -267,6 +268,34 @@ static void print_times(const pool *p, double times[TIMES][BENCH_RUNS], const be
     printf("  %-26s %9.3f ms, by its fence\n", "the same, light by surfels", bench_median(times[SURFELS], BENCH_RUNS));
 }
 
+static void print_counts(const pool *p)
+{
+    printf("%u particles, %u surfels, %u droplets of %u splash particles, %u particles of foam\n", p->count,
+           p->stats.surfels, p->stats.droplets, p->stats.splashes, p->stats.foam);
+}
+
+/* What a frame would take on a card: of the surface of balls, with light by pixels, as is the default. */
+static bool model(bench *b, const struct row *row)
+{
+    double ms;
+    pool p = {.row = row, .count = row->side * row->side * row->height};
+    bool good = open_pool(b, &p);
+    for (int i = 0; i <= SETTLE && good && !interrupt_requested(); i++) {
+        if (i == SETTLE) {
+            counting_forget();
+            counting_all_of_next();
+        }
+        good = frame(b, &p, true, VIRGA_WATER_SHADING_PIXELS, &ms);
+    }
+    if (good && !interrupt_requested()) {
+        print_counts(&p);
+        bench_print_model(b);
+        fflush(stdout);
+    }
+    close_pool(b, &p);
+    return good;
+}
+
 static bool measure(bench *b, const struct row *row)
 {
     double times[TIMES][BENCH_RUNS];
@@ -274,13 +303,11 @@ static bool measure(bench *b, const struct row *row)
     pool p = {.row = row, .count = row->side * row->side * row->height};
     const bool good = open_pool(b, &p) && time_passes(b, &p, times);
     if (good)
-        printf("%u particles, %u surfels, %u droplets of %u splash particles, %u particles of foam\n", p.count,
-               p.stats.surfels, p.stats.droplets, p.stats.splashes, p.stats.foam);
+        print_counts(&p);
     close_pool(b, &p);
     if (!good || !bench_water_measure_limits(b, p.count, PICTURE, &machine))
         return interrupt_requested();
     print_times(&p, times, &machine);
-    bench_print_model(b);
     fflush(stdout);
     return true;
 }
@@ -332,7 +359,7 @@ static bool run(bench *b, const options *parsed)
     bool good = bench_water_read_particles(parsed, &most);
     for (size_t i = 0; good && !interrupt_requested() && i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].side * rows[i].side * rows[i].height <= most)
-            good = measure(b, &rows[i]);
+            good = b->model ? model(b, &rows[i]) : measure(b, &rows[i]);
     return good;
 }
 
