@@ -18,6 +18,7 @@
 #define MAX_PROJECTION 1e7f
 #define MAX_TIME_S     1e9
 #define MAX_SUB_FRAMES 65536
+#define MAX_JITTER_PX  16
 
 virga_view virga_default_view(void)
 {
@@ -194,6 +195,10 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
     if (!view->sub_frames || view->sub_frames > MAX_SUB_FRAMES)
         return virga_wrong_argument(log, "view.sub_frames: expected 1 to %d, got %u", MAX_SUB_FRAMES, view->sub_frames);
+    for (int axis = 0; axis < 2; axis++)
+        if (!(fabsf(view->jitter_px[axis]) <= MAX_JITTER_PX))
+            return virga_wrong_argument(log, "view.jitter_px: expected -%d to %d pixels, got %g", MAX_JITTER_PX,
+                                        MAX_JITTER_PX, (double)view->jitter_px[axis]);
     if (view->multiview_index >= 32)
         return virga_wrong_argument(log, "view.multiview_index: expected 0 to 31, got %u", view->multiview_index);
     if (!(view->aperture_m >= 0 && view->aperture_m <= 1))
@@ -364,6 +369,8 @@ void virga_view_fill(const virga_view *view, const virga_lighting *lighting, con
     out->depth_given = view->depth.view != VK_NULL_HANDLE;
     out->color_given = virga_view_color_given(view);
     out->multiview_index = view->multiview_index;
+    for (int axis = 0; axis < 2; axis++)
+        out->jitter[axis] = 2 * view->jitter_px[axis] / view->viewport[2 + axis];
     fill_lights(lighting, view->position_m, out);
     fill_environment(lighting, out);
 }

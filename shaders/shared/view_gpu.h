@@ -61,6 +61,7 @@ struct virga_view_gpu {
     float lens_px;        /* blur at a distance d: lens_px |inv_focus - 1 / d| pixels */
     float inv_focus;      /* 1/m, 1 / focus distance */
     uint multiview_index; /* view of the pass, see virga_view.multiview_index */
+    float jitter[2];      /* NDC, by which the projections of this view shift the picture */
 };
 
 #define VIRGA_VIEW_SH_WORD 61u /* offset of `sh` in 32-bit words */

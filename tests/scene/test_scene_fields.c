@@ -374,6 +374,7 @@ static void view_fields(void **state)
         F(open_position_m, REFUSED, -FAR, FAR),
         F(shutter_s, REFUSED, 0, 1),
         F(sub_frames, REFUSED, 1, 65536),
+        F(jitter_px[0], REFUSED, -16, 16),
         F(open_camera_s, REFUSED, 0, 1e9),
         F(aperture_m, REFUSED, 0, 1),
         F(focus_m, REFUSED, 0, 1e6),
@@ -389,9 +390,9 @@ static void view_fields(void **state)
     };
     fields_test t;
     open_test(&t, state);
-    try_fields(&t, "view", &t.view, sizeof t.view, fields, 6, frame_with_view, NULL);
+    try_fields(&t, "view", &t.view, sizeof t.view, fields, 7, frame_with_view, NULL);
     /* Signs do not matter to what follows, so these are tried with what is wrong alone. */
-    for (size_t i = 6; i < SIZE(fields); i++) {
+    for (size_t i = 7; i < SIZE(fields); i++) {
         static const double wrong[] = {NAN, INFINITY, -INFINITY, 3e38, -3e38};
         for (size_t k = 0; k < SIZE(wrong); k++)
             field_try(t.f, &(field_table){"view", &t.view, sizeof t.view, fields, 0, frame_with_view, NULL, &t},

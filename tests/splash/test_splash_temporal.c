@@ -149,6 +149,38 @@ static void a_droplet_comes_from_where_its_orbit_was(void **state)
     close_shot(&s);
 }
 
+/* A host that averages sub-frames says what jitter is in its projection: both ends are where they are without it. The
+ * next sub-frame has another jitter, and begins where this one ends. 0.02 px of floats. */
+static void a_droplet_in_sub_frames_is_drawn_without_their_jitter(void **state)
+{
+    (void)state;
+    static const float jitters[2][2] = {{-0.45f, 0.4f}, {0.3f, -0.35f}};
+    const double shutter_s = 1.0 / 384;
+    shot s;
+    open_shot(&s);
+    put_droplet(&s, 3e-3f, (const float[3]){0.6f, 1.5f, -0.4f});
+    for (int part = 0; part < 2; part++) {
+        host_camera now, plain;
+        s.after_s = shutter_s * (part + 1);
+        aim(&now, (const double[3]){0, 0, 0.5}, (const double[3]){0, 0, 0}, 40, jitters[part]);
+        aim(&plain, (const double[3]){0, 0, 0.5}, (const double[3]){0, 0, 0}, 40, NULL);
+        set_cameras(&s, &now, &now, shutter_s);
+        memcpy(s.view.jitter_px, jitters[part], sizeof s.view.jitter_px);
+        draw_frame(&s);
+        const virga_sprite_gpu *sprite = s.sprites.mapped;
+        const float *ends[2] = {sprite->head, sprite->tail};
+        assert_int_equal(((const virga_splash_prepared_gpu *)s.prepared.mapped)->sprites, 1);
+        for (int end = 0; end < 2; end++) {
+            double here[3], pixel[2];
+            droplet_at(&s, s.after_s - end * shutter_s, here);
+            camera_pixel(&plain, here, pixel);
+            assert_float_equal((0.5 + 0.5 * (double)ends[end][0]) * WIDTH, pixel[0], 0.02);
+            assert_float_equal((0.5 + 0.5 * (double)ends[end][1]) * HEIGHT, pixel[1], 0.02);
+        }
+    }
+    close_shot(&s);
+}
+
 /* A crown's radius goes with the square root of its age until it is highest, so all of it does, as seen from the side:
  * x of before is x of now times the root of the ages. Perspective at 30 times its size, half floats: 4 %, 0.1 px. */
 static void a_crown_widens_from_its_middle(void **state)
@@ -264,6 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_droplet_comes_from_where_its_orbit_was),
+        cmocka_unit_test(a_droplet_in_sub_frames_is_drawn_without_their_jitter),
         cmocka_unit_test(a_crown_widens_from_its_middle),
         cmocka_unit_test(pyramids_of_the_papers_style_have_vectors_too),
         cmocka_unit_test(a_resolve_smears_splashes_less_with_the_outputs),

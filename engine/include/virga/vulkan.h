@@ -606,6 +606,11 @@ typedef struct virga_view {
      * more views do not show less rain. Default 1. */
     uint32_t sub_frames;
 
+    /* [-16; 16] jitter that clip_from_view and open_clip_from_view contain (pixels, right and down), for a host that
+     * averages sub-frames. Droplets in motion are drawn without it, as rain is: they have soft edges by themselves, and
+     * the parts of their streaks then meet. A game whose TAA takes the jitter back leaves it 0. Default 0, 0. */
+    float jitter_px[2];
+
     /* [0; 1e9] time from the open camera to the time drawn (s). 0: shutter_s. A game whose open camera is that of the
      * previous frame gives the time between the two frames; else its motion would count as that of the shorter shutter.
      * Default 0. */

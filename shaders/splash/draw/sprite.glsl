@@ -249,6 +249,11 @@ Projected project_sprite(Sprite sprite)
         p.tail = project(to_mat(view.open_clip_from_rel), sprite.tail);
     else
         p.tail = project(to_mat(view.clip_from_rel), sprite.tail);
+    if (sprite.moves) {
+        // Each sub-frame has a part of the path. With a jitter of its own it would not begin where the one before ends.
+        p.head.xy -= vec2(view.jitter[0], view.jitter[1]) * p.head.w;
+        p.tail.xy -= vec2(view.jitter[0], view.jitter[1]) * p.tail.w;
+    }
     p.coverage = 0.0;
     p.width_px = p.way_px = p.body_px = p.spread_px = 0.0;
     p.columns = p.rows = p.one_share = 1.0;

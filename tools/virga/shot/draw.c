@@ -181,6 +181,7 @@ static virga_view look_through(shot *s, double part_s, const sample_cameras *cam
     view.color = host_target_color(&s->target);
     host_camera_view(&cameras->now, &cameras->open, part_s, &view);
     view.sub_frames = s->options.samples;
+    memcpy(view.jitter_px, cameras->now.jitter_px, sizeof view.jitter_px);
     set_frame_ago(s, &cameras->frame_ago, &view);
     set_lens(s, cameras->focus_inv_m, &view);
     return view;
