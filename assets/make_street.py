@@ -83,18 +83,23 @@ HOLLOWS = [(-1.6, 2.6, 0.020, 1.2), (0.9, -1.5, 0.018, 1.0), (-0.4, -6.2, 0.022,
            (1.9, -10.0, 0.018, 1.2), (-2.1, -12.5, 0.020, 1.1), (0.3, -23.5, 0.022, 1.6), (-2.4, -1.2, 0.016, 0.8),
            (-1.0, -30.0, 0.02, 1.5), (1.4, 9.5, 0.02, 1.2)]
 
+# Along the street, of gully grates on both sides. The channel before the kerb falls towards them, by 4 mm per metre.
+GRATES = (4.6, -7.4, -20.8, -33.0)
+CHANNEL_FALL, CHANNEL_RUN = 0.004, 6.6
+
 # Street lamps, (x, z); see parts.street_lamp for where the light is.
 LAMPS = [(-3.95, -1.2), (3.95, -13.2), (-3.95, -25.5), (3.95, -38.0)]
 
 
 def road_height(x, z):
-    """Camber, old settlement and hollows; 0 at the gutter's outer edge."""
+    """Camber, old settlement, hollows, and channels that fall to grates; about 0 at the kerb, far from a grate."""
     edge = max(0.0, 1.0 - (x / HALF_ROAD) ** 2)
     y = 0.075 * edge
     y += 0.005 * edge * (math.sin(1.1 * z + 1.7 * math.sin(0.9 * x)) + math.sin(0.53 * z - 1.3 * x))
     for hx, hz, depth, radius in HOLLOWS:
         y -= depth * edge * math.exp(-((x - hx) ** 2 + (z - hz) ** 2) / (radius * radius * 0.6))
-    return y
+    channel = min(max((abs(x) - HALF_ASPHALT) / 0.2, 0.0), 1.0)
+    return y - channel * CHANNEL_FALL * max(CHANNEL_RUN - min(abs(z - grate) for grate in GRATES), 0.0)
 
 
 def span(start, stop, steps):
@@ -114,7 +119,7 @@ def make_ground(scene):
     sheet(g, "asphalt", ROAD_XS, ROAD_ZS, road_height)
     for side in (-1, 1):
         xs = sorted((side * HALF_ASPHALT, side * 3.3, side * HALF_ROAD))
-        sheet(g, "cobble_stone", xs, span(NEAR_Z, FAR_Z, 54), road_height)
+        sheet(g, "cobble_stone", xs, ROAD_ZS, road_height)
         inner, outer = side * 3.64, side * HALF_STREET
         sheet(g, "concrete_slabs", sorted((inner, outer)), [NEAR_Z, FAR_Z],
               lambda x, z: KERB + 0.02 * (abs(x) - 3.64))
@@ -714,7 +719,7 @@ def make_furniture(scene):
     for z in (-10.9, -12.3, -14.5, -15.3):
         scene.place(bollard, (3.9, pavement_height(3.9), z))
     for side in (-1, 1):
-        for z in (4.6, -7.4, -20.8, -33.0):
+        for z in GRATES:
             scene.place(grate, (side * 3.28, road_height(3.28, z) + 0.004, z))
     cover = parts.manhole(TILES)
     for x, z in ((-0.9, 0.4), (0.7, -17.2), (-1.2, -26.0)):

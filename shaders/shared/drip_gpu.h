@@ -10,15 +10,18 @@ typedef struct virga_drip_site_gpu virga_drip_site_gpu;
 typedef struct virga_drip_gpu virga_drip_gpu;
 #endif
 
-#define VIRGA_DRIP_SITES_PER_BLOCK 8 /* of 256 bytes, in which the host sends them */
+#define VIRGA_DRIP_SITES_PER_BLOCK 16 /* of 768 bytes, in which the host sends them */
 
-/* A place, 32 bytes. */
+/* A place, 48 bytes. */
 struct virga_drip_site_gpu {
     float position[3]; /* m, relative to the first site */
     float catch_m2;    /* level area whose rain drains to it */
     float drain;       /* nl/s that leave a film of n nl, over n^3, see engine/splash/splash_drips.c */
     uint seed;         /* a number of its own */
-    uint pad[2];
+    float drops;       /* that fly as one */
+    uint pad;
+    float velocity[3]; /* m/s, with which they leave */
+    float pad_too;
 };
 
 /* Its water, 16 bytes. */
@@ -30,7 +33,7 @@ struct virga_drip_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_drip_site_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_drip_site_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_drip_gpu, 16);
 #undef uint
 #endif

@@ -1,4 +1,4 @@
-/* Places from which rain drips, of surfaces whose catchments are known. No device is needed. */
+/* Places from which rain drips and pours, of surfaces whose catchments are known. No device is needed. */
 #include "drip_edges.h"
 
 #include <math.h>
@@ -15,6 +15,8 @@
 #define REACH_M   2.5
 
 static virga_drip_site sites[MAX_SITES];
+static host_eave *eaves; /* of the newest search */
+static uint32_t eave_count;
 
 /* A level or tilted rectangle: heights at its low and at its high end of z. */
 typedef struct plate {
@@ -50,7 +52,8 @@ static uint32_t find(const plate *plates, uint32_t count, uint32_t capacity)
     for (uint32_t i = 0; i < count; i++)
         add_plate(edges, &plates[i]);
     memset(sites, 0, sizeof sites);
-    const uint32_t got = host_drip_edges_find(edges, REACH_M, sites, capacity, &found);
+    free(eaves);
+    const uint32_t got = host_drip_edges_find(edges, REACH_M, sites, capacity, &found, &eaves, &eave_count);
     assert_int_equal(got, found < capacity ? found : capacity);
     host_drip_edges_end(edges);
     return got;
@@ -134,6 +137,98 @@ static void roofs_have_gutters(void **state)
     assert_true(catchment(count, low, high) < 0.1);
 }
 
+/* 6 m wide and 5 m deep: its lower edge is a gutter at z = 2.5. */
+static const plate roof_plates[2] = {{{-8, -8}, {8, 8}, 0, 0, true}, {{-3, -2.5}, {3, 2.5}, 6, 4, false}};
+
+static double eaves_m2(void)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < eave_count; i++)
+        sum += eaves[i].catch_m2;
+    return sum;
+}
+
+/* Area that drains to places of `gutters` within the pipe's radius of a point. */
+static double poured_m2(const host_gutters *gutters, const double at[3])
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < gutters->site_count; i++) {
+        const virga_drip_site *site = &gutters->sites[i];
+        assert_true(site->catch_m2 <= 2 && site->width_m <= 1);
+        if (hypot(site->position_m[0] - at[0], site->position_m[2] - at[2]) < 0.031)
+            sum += (double)site->catch_m2;
+        assert_float_equal(site->position_m[1], at[1], 1e-9);
+    }
+    return sum;
+}
+
+static void what_falls_on_a_roof_drips_or_comes_into_its_gutter(void **state)
+{
+    (void)state;
+    const uint32_t count = find(roof_plates, 2, MAX_SITES);
+    assert_float_equal(catchment(count, all_low, all_high) + eaves_m2(), 30, 0.3);
+    assert_true(eaves_m2() > 20);
+    for (uint32_t i = 0; i < eave_count; i++) {
+        assert_float_equal(eaves[i].ground_m, 0, 1e-6);
+        assert_float_equal(eaves[i].slope, 0.4 / sqrt(1.16), 0.01);
+    }
+}
+
+static void each_piece_of_a_gutter_drains_to_the_nearest_pipe(void **state)
+{
+    (void)state;
+    const host_downpipe pipes[3] = {
+        {{-2.9, 0.3, 2.4}, {0, -0.5, 1}}, {{2.9, 0.3, 2.4}, {0, -0.5, 1}}, {{0, 0.3, 6}, {0, -1, 0}}};
+    host_gutters gutters;
+    find(roof_plates, 2, MAX_SITES);
+    assert_true(host_gutters_find(eaves, eave_count, pipes, 3, &gutters));
+    const double all = eaves_m2();
+    assert_float_equal(poured_m2(&gutters, pipes[0].position_m), all / 2, 0.02 * all);
+    assert_float_equal(poured_m2(&gutters, pipes[1].position_m), all / 2, 0.02 * all);
+    assert_float_equal(poured_m2(&gutters, pipes[2].position_m), 0, 0);
+    assert_float_equal(gutters.lost_m2, 0, 0);
+    /* The film between them is that of the roof: as wide, and as steep. */
+    double width_m = 0;
+    for (uint32_t i = 0; i < gutters.site_count; i++) {
+        width_m += (double)gutters.sites[i].width_m;
+        assert_float_equal((double)gutters.sites[i].slope, 0.4 / sqrt(1.16), 0.01);
+        assert_float_equal((double)gutters.sites[i].velocity_m_s[2], 1, 0);
+    }
+    assert_float_equal(width_m, 0.05 * eave_count, 1e-3);
+    free(gutters.sites);
+}
+
+static void a_gutter_without_a_named_pipe_pours_at_its_end(void **state)
+{
+    (void)state;
+    host_gutters gutters;
+    find(roof_plates, 2, MAX_SITES);
+    assert_true(host_gutters_find(eaves, eave_count, NULL, 0, &gutters));
+    double end = -9;
+    for (uint32_t i = 0; i < eave_count; i++)
+        end = fmax(end, eaves[i].position_m[0]);
+    double sum = 0;
+    for (uint32_t i = 0; i < gutters.site_count; i++) {
+        assert_float_equal(gutters.sites[i].position_m[0], end, 0.15);
+        assert_float_equal(gutters.sites[i].position_m[1], 0.2, 1e-6);
+        sum += (double)gutters.sites[i].catch_m2;
+    }
+    assert_float_equal(sum, eaves_m2(), 1e-3);
+    free(gutters.sites);
+}
+
+static void water_of_a_gutter_that_no_pipe_empties_is_counted_as_lost(void **state)
+{
+    (void)state;
+    const host_downpipe far_away = {{0, 0.3, 6}, {0, -1, 0}};
+    host_gutters gutters;
+    find(roof_plates, 2, MAX_SITES);
+    assert_true(host_gutters_find(eaves, eave_count, &far_away, 1, &gutters));
+    assert_int_equal(gutters.site_count, 0);
+    assert_float_equal(gutters.lost_m2, eaves_m2(), 1e-6);
+    free(gutters.sites);
+}
+
 static void where_places_are_many_those_with_most_water_are_kept(void **state)
 {
     (void)state;
@@ -152,7 +247,13 @@ int main(void)
         cmocka_unit_test(water_of_a_balcony_falls_on_the_awning_below),
         cmocka_unit_test(low_steps_and_places_without_ground_below_do_not_drip),
         cmocka_unit_test(roofs_have_gutters),
+        cmocka_unit_test(what_falls_on_a_roof_drips_or_comes_into_its_gutter),
+        cmocka_unit_test(each_piece_of_a_gutter_drains_to_the_nearest_pipe),
+        cmocka_unit_test(a_gutter_without_a_named_pipe_pours_at_its_end),
+        cmocka_unit_test(water_of_a_gutter_that_no_pipe_empties_is_counted_as_lost),
         cmocka_unit_test(where_places_are_many_those_with_most_water_are_kept),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    free(eaves);
+    return failed;
 }

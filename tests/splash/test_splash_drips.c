@@ -224,6 +224,41 @@ static void sites_may_move_and_become_fewer(void **state)
     splash_fixture_close(&f);
 }
 
+/* A pipe: drops leave with its velocity, eight as one, and all water is counted. */
+static void a_pipe_pours_with_its_velocity(void **state)
+{
+    (void)state;
+    const float velocity[3] = {0.3f, -0.5f, 1.5f};
+    begin(true, 4096);
+    for (uint32_t i = 0; i < SITES; i++) {
+        sites[i].catch_m2 = 1;
+        sites[i].drops = i % 2 ? 8 : 0;
+        memcpy(sites[i].velocity_m_s, velocity, sizeof velocity);
+    }
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    uint32_t as_one = 0, single = 0;
+    for (uint32_t step = 0; step < 20; step++) {
+        splash_fixture_step(&f, 1 + step % 3);
+        assert_counted();
+        for (uint32_t i = 0; i < f.state->staying; i++) {
+            const virga_droplet_gpu *drop = &f.droplets[i];
+            const double flown_s = (double)drop->age_s - 0.15, mm = 1e3 * (double)drop->diameter_m;
+            const double drops = drop->water_nl / (M_PI / 6 * 1e3 * mm * mm * mm);
+            if (flown_s > 0.1)
+                continue;
+            /* Air takes less than 4 % of 2 m/s in 0.1 s. */
+            assert_float_equal((double)drop->velocity[0], (double)velocity[0], 0.03);
+            assert_float_equal((double)drop->velocity[1], (double)velocity[1] - GRAVITY * flown_s, 0.08);
+            assert_float_equal((double)drop->velocity[2], (double)velocity[2], 0.08);
+            assert_true(fabs(drops - 8) < 0.01 || fabs(drops - 1) < 0.01);
+            as_one += drops > 4;
+            single += drops < 4;
+        }
+    }
+    assert_true(as_one > 500 && single > 500);
+    splash_fixture_close(&f);
+}
+
 static void wrong_sites_are_refused(void **state)
 {
     (void)state;
@@ -235,6 +270,12 @@ static void wrong_sites_are_refused(void **state)
     sites[3].catch_m2 = 0;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     sites[3].catch_m2 = NAN;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    choose_sites();
+    sites[3].drops = 65;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    choose_sites();
+    sites[3].velocity_m_s[2] = -21;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     choose_sites();
     sites[3].position_m[1] = INFINITY;
@@ -253,6 +294,7 @@ int main(void)
         cmocka_unit_test(drops_fall_from_their_edges),
         cmocka_unit_test(steps_of_any_length_give_the_same_bits),
         cmocka_unit_test(sites_may_move_and_become_fewer),
+        cmocka_unit_test(a_pipe_pours_with_its_velocity),
         cmocka_unit_test(wrong_sites_are_refused),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -23,15 +23,24 @@ static const scene_keyword splash_modes[] = {
     {"paper", SCENE_SPLASH_MODE_PAPER}, {"physical", SCENE_SPLASH_MODE_PHYSICAL}, {NULL, 0}};
 static const scene_keyword splash_styles[] = {
     {"paper", SCENE_SPLASH_STYLE_PAPER}, {"film", SCENE_SPLASH_STYLE_FILM}, {NULL, 0}};
+static const scene_row pipe_rows[] = {
+    NUMBER(scene_downpipe, position_m, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "where its water comes out"),
+    NUMBER(scene_downpipe, velocity_m_s, -20, 20, "[0, -1, 0]", RESTARTS, "with which it does"),
+};
+static const scene_group pipe_group = SCENE_GROUP(scene_downpipe, pipe_rows);
+
 static const scene_row drip_rows[] = {
     SWITCH(scene_splash_drips, on, "false", RESTARTS, "rain drips from awnings, balconies, leaves, cars"),
     NUMBER(scene_splash_drips, reach_m, 0.01, 100, "2.5", RESTARTS,
-           "surfaces on which water runs farther are roofs with gutters, and do not drip"),
+           "surfaces on which water runs farther are roofs with gutters"),
     NUMBER(scene_splash_drips, min_mm, 1, 7, "3", LIVE, "diameter of the smallest drops that fall"),
     NUMBER(scene_splash_drips, max_mm, 1, 7, "5", LIVE, "diameter of the largest"),
     SWITCH(scene_splash_drips, wet, "true", RESTARTS, "it has rained for long before the first frame"),
     WHOLE(scene_splash_drips, max_sites, 16, 65536, "16384", RESTARTS,
           "places that drip at most: those with the most water"),
+    SWITCH(scene_splash_drips, pour, "true", RESTARTS, "water of roofs comes out of downpipes; false: it is gone"),
+    LIST(scene_splash_drips, pipes, pipe_count, &pipe_group, 0, 256, "[]",
+         "lower ends of downpipes; without any there is one at an end of each gutter"),
 };
 static const scene_group drip_group = SCENE_GROUP(scene_splash_drips, drip_rows);
 

@@ -11,6 +11,11 @@ extern "C" {
 typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYSICAL } scene_splash_mode;
 typedef enum scene_splash_style { SCENE_SPLASH_STYLE_PAPER, SCENE_SPLASH_STYLE_FILM } scene_splash_style;
 
+/* The lower end of a downpipe, which empties the gutters near it. */
+typedef struct scene_downpipe {
+    double position_m[3], velocity_m_s[3];
+} scene_downpipe;
+
 /* Edges from which rain drips. */
 typedef struct scene_splash_drips {
     bool on;
@@ -18,6 +23,9 @@ typedef struct scene_splash_drips {
     double min_mm, max_mm;
     bool wet;
     uint32_t max_sites;
+    bool pour;
+    scene_downpipe *pipes;
+    uint32_t pipe_count;
 } scene_splash_drips;
 
 typedef struct scene_splash {

@@ -148,6 +148,9 @@ typedef struct flood {
     uint32_t taken_count;
     heap_entry *heap;
     uint32_t count, order;
+    host_eave *eaves; /* of roofs */
+    uint32_t eave_count, eave_room;
+    bool no_memory;
 } flood;
 
 static bool is_before(const heap_entry *a, const heap_entry *b)
@@ -294,15 +297,39 @@ static virga_drip_site site_of(const host_drip_edges *edges, uint32_t cell, cons
     return site;
 }
 
+static void add_eave(flood *f, uint32_t cell, const drip_flow *flow)
+{
+    const host_drip_edges *edges = f->edges;
+    const drip_cell *below = &edges->cells[flow->to];
+    const virga_drip_site site = site_of(edges, cell, flow);
+    if (f->eave_count == f->eave_room) {
+        host_eave *more = realloc(f->eaves, (2 * (size_t)f->eave_room + 64) * sizeof *more);
+        f->no_memory = f->no_memory || !more;
+        if (!more)
+            return;
+        f->eaves = more;
+        f->eave_room = 2 * f->eave_room + 64;
+    }
+    f->eaves[f->eave_count++] = (host_eave){
+        .x = cell % edges->side,
+        .z = cell / edges->side,
+        .position_m = {site.position_m[0], site.position_m[1], site.position_m[2]},
+        .ground_m = below->ground ? (double)below->height_m : NAN,
+        .catch_m2 = (double)flow->cells * edges->cell_m * edges->cell_m,
+        .width_m = edges->cell_m,
+        .slope = (double)site.slope,
+    };
+}
+
 static int by_catchment(const void *a, const void *b)
 {
     const float x = ((const virga_drip_site *)a)->catch_m2, y = ((const virga_drip_site *)b)->catch_m2;
     return (x < y) - (x > y);
 }
 
-/* Water goes down, from the highest cells on. Over a cliff it falls; that of roofs is in gutters by then. Returns all
- * places, to be freed. */
-static virga_drip_site *collect(const flood *f, double reach_m, uint32_t *found)
+/* Water goes down, from the highest cells on. Over a cliff it falls; that of roofs comes into gutters there. Returns
+ * all places, to be freed. */
+static virga_drip_site *collect(flood *f, double reach_m, uint32_t *found)
 {
     const host_drip_edges *edges = f->edges;
     virga_drip_site *sites = malloc(((size_t)f->taken_count + 1) * sizeof *sites);
@@ -316,8 +343,10 @@ static virga_drip_site *collect(const flood *f, double reach_m, uint32_t *found)
         const drip_cell *below = &edges->cells[flow->to];
         const double falls_m = (double)edges->cells[cell].height_m - (double)below->height_m;
         const bool to_sink = is_sink(below), falls = falls_m >= (to_sink ? FALL_M : CLIFF_M);
-        if (falls && (double)flow->way_m > reach_m)
+        if (falls && (double)flow->way_m > reach_m) {
+            add_eave(f, cell, flow);
             continue;
+        }
         if (to_sink) {
             if (falls && below->ground)
                 sites[(*found)++] = site_of(edges, cell, flow);
@@ -331,7 +360,7 @@ static virga_drip_site *collect(const flood *f, double reach_m, uint32_t *found)
 }
 
 uint32_t host_drip_edges_find(host_drip_edges *edges, double reach_m, virga_drip_site *sites, uint32_t capacity,
-                              uint32_t *found)
+                              uint32_t *found, host_eave **eaves, uint32_t *eave_count)
 {
     const size_t cells = (size_t)edges->side * edges->side;
     flood f = {.edges = edges,
@@ -346,7 +375,11 @@ uint32_t host_drip_edges_find(host_drip_edges *edges, double reach_m, virga_drip
         find_directions(&f);
         all = collect(&f, reach_m, found);
     }
-    const bool ok = all;
+    const bool ok = all && !f.no_memory;
+    if (!ok)
+        free(f.eaves);
+    *eaves = ok ? f.eaves : NULL;
+    *eave_count = ok ? f.eave_count : 0;
     const uint32_t count = *found < capacity ? *found : capacity;
     if (ok && *found > capacity)
         qsort(all, *found, sizeof *all, by_catchment);

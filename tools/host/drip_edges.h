@@ -7,6 +7,7 @@
 
 #include <virga/splash.h>
 
+#include "gutters.h"
 #include "mesh.h"
 
 typedef struct host_drip_edges host_drip_edges;
@@ -19,10 +20,10 @@ void host_drip_edges_add(host_drip_edges *edges, const host_mesh *mesh, const ho
                          const uint32_t *indices);
 
 /* Finds up to `capacity` places, those with the largest catchments if there are more; *found gets the number of all.
- * Surfaces on which water runs for more than `reach_m` are roofs, whose gutters take it. Returns their number, or
- * UINT32_MAX: no memory. */
+ * Surfaces on which water runs for more than `reach_m` are roofs, whose gutters take it: *eaves gets where it would
+ * fall (freed with free()), and *eave_count their number. Returns the number of places, or UINT32_MAX: no memory. */
 uint32_t host_drip_edges_find(host_drip_edges *edges, double reach_m, virga_drip_site *sites, uint32_t capacity,
-                              uint32_t *found);
+                              uint32_t *found, host_eave **eaves, uint32_t *eave_count);
 
 void host_drip_edges_end(host_drip_edges *edges);
 

@@ -68,7 +68,7 @@ typedef struct virga_splash_def {
      * 0. */
     uint32_t max_handed;
 
-    /* [0; 65536] places from which rain water drips, see virga_splash_set_drips; 48 bytes each and 32 for each frame in
+    /* [0; 65536] places from which rain water drips, see virga_splash_set_drips; 64 bytes each and 48 for each frame in
      * flight. Above 0, max_handed is raised to 4096 where it is 0. Default 0. */
     uint32_t max_drips;
 
@@ -236,6 +236,14 @@ typedef struct virga_drip_site {
     float catch_m2;       /* (0; 4] level area of the surface whose rain drains to it */
     float width_m;        /* [0.005; 1] length of the piece of edge. Drops hang 24 mm apart */
     float slope;          /* [0.005; 1] sine of the surface's angle. What is level is 0.02 steep */
+
+    /* [-20; 20] velocity (m/s) with which the water leaves: that of a spout, or of the end of a downpipe, which has the
+     * roof's film between them. 0: it hangs and falls, as from an edge. Default 0. */
+    float velocity_m_s[3];
+
+    /* [0; 64] drops that fly as one, and land in one place: for pipes, which pour thousands in a second. 0 counts as 1.
+     * In a tick four leave a place at most, and what waits is counted as hanging. Default 0. */
+    float drops;
 } virga_drip_site;
 
 /* Says where rain water drips; NULL and 0: nowhere. Rain (step_info.rain_mm_h) runs over each surface as a film,

@@ -32,10 +32,11 @@ float diameter_of(uint seed, uint number)
     return mix(tick.drip_m[0], tick.drip_m[1], virga_unit(virga_hash3(seed, number, 1u)));
 }
 
-uint water_of(float diameter_m)
+// nl of the drops that fall as one: pi / 6 d^3, in mm^3 for d in mm. Below 2^32: 64 drops of 7 mm.
+uint water_of(virga_drip_site_gpu site, float diameter_m)
 {
     const float mm = 1e3 * diameter_m;
-    return uint(523.598776 * mm * mm * mm); // pi / 6, in nl for 1 mm
+    return uint(523.598776 * mm * mm * mm * site.drops);
 }
 
 // Before its first tick: as dry, or with the film that this rain keeps up, and with a part of a drop, so that sites do
@@ -47,26 +48,27 @@ virga_drip_gpu begin_drip(virga_drip_site_gpu site)
     virga_drip_gpu drip = virga_drip_gpu(0u, 0u, 0u, 1u);
     if (wet) {
         drip.film_nl = uint(min(pow(inflow / site.drain, 1.0 / 3.0), 0.5 * float(MAX_FILM_NL)));
-        drip.hang_nl = uint(virga_unit(virga_hash1(site.seed)) * float(water_of(diameter_of(site.seed, 0u))));
+        drip.hang_nl = uint(virga_unit(virga_hash1(site.seed)) * float(water_of(site, diameter_of(site.seed, 0u))));
     }
     return drip;
 }
 
-// A drop that fell `age_s` before the end of the step, from rest. In this short time the air hardly slows it down.
+// A drop that fell `age_s` before the end of the step. In this short time the air hardly slows it down.
 void write_drop(uint index, virga_drip_site_gpu site, uint number, float age_s)
 {
     const float diameter_m = diameter_of(site.seed, number), late_s = age_s + tick.handed_late_s;
     vec3 position = to_vec(site.position) + to_vec(tick.drip_offset);
+    position += to_vec(site.velocity) * late_s;
     position.y -= 0.5 * diameter_m + 0.5 * GRAVITY * late_s * late_s;
     virga_handed_droplet_gpu drop;
     drop.position = float[3](position.x, position.y, position.z);
     drop.age_s = SHOWN_S + late_s;
-    drop.velocity = float[3](0.0, -GRAVITY * late_s, 0.0);
+    drop.velocity = float[3](site.velocity[0], site.velocity[1] - GRAVITY * late_s, site.velocity[2]);
     drop.diameter_m = diameter_m;
     drop.id = virga_hash2(site.seed, number);
     drop.number = 0u;
-    drop.water_nl = water_of(diameter_m);
-    drop.drops = 1.0;
+    drop.water_nl = water_of(site, diameter_m);
+    drop.drops = site.drops;
     handed[index] = drop;
 }
 
@@ -87,7 +89,7 @@ uint drain(virga_drip_site_gpu site, uint number, inout virga_drip_gpu drip, ino
 }
 
 // All ticks of a step. `last`: drops are written from `index` on, as far as there is room. Returns their number.
-uint step_site(uint i, bool last, uint room, inout uint index, inout uvec2 water)
+uint step_site(uint i, bool last, uint room, inout uint index, inout uvec3 water)
 {
     const virga_drip_site_gpu site = sites[i];
     virga_drip_gpu drip = drips[i];
@@ -99,7 +101,7 @@ uint step_site(uint i, bool last, uint room, inout uint index, inout uvec2 water
     for (uint t = 0u; t < tick.tick_in_step; t++) {
         const uint came = drain(site, tick.tick - tick.tick_in_step + t, drip, caught);
         for (uint k = 0u; k < MAX_DROPS; k++) {
-            const uint size = water_of(diameter_of(site.seed, drip.drops));
+            const uint size = water_of(site, diameter_of(site.seed, drip.drops));
             if (drip.hang_nl < size || (last && index >= room))
                 break;
             drip.hang_nl -= size;
@@ -107,7 +109,7 @@ uint step_site(uint i, bool last, uint room, inout uint index, inout uvec2 water
             const float rest = clamp(float(drip.hang_nl) / float(max(came, 1u)), 0.0, 1.0);
             if (last) {
                 write_drop(index++, site, drip.drops, (float(tick.tick_in_step - 1u - t) + rest) * tick.tick_s);
-                water.y += size;
+                water += uvec3(0u, size, uint(site.drops));
             }
             drip.drops++;
             fell++;
@@ -133,16 +135,16 @@ void main()
         if (pass == 1u)
             index = before + scan_group(uvec2(fell, 0u), all).x;
         for (uint i = begin; i < end; i++) {
-            uvec2 water = uvec2(0u);
+            uvec3 water = uvec3(0u);
             fell += step_site(i, pass == 1u, room, index, water);
             count(VIRGA_SPLASH_DRIP_IN, water.x);
             count(VIRGA_SPLASH_DRIP_OUT, water.y);
+            count(VIRGA_SPLASH_DRIPS, water.z);
         }
     }
     if (lane != 0u)
         return;
     const uint total = min(before + all.x, max(room, before));
-    count(VIRGA_SPLASH_DRIPS, total - before);
     handed_head.count = total;
     handed_head.group_count = uint[3]((total + 63u) / 64u, 1u, 1u);
 }
