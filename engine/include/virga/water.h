@@ -112,9 +112,15 @@ typedef enum virga_water_kernel {
     /* An ellipsoid along the neighbours of each particle (Yu and Turk 2013): a disk on flat water and in thin
      * sheets. Edges are sharper, and sheets of one layer of particles stay whole with wide kernels, where balls lose
      * them above kernel_spacings 2.46. Flat water is not flatter than with balls of the same radius: what counts
-     * there is how many particles a kernel sees. On a block of particles that are out of order by 0.115 spacings RMS
-     * on each axis, the height of the surface has an RMS of 0.052 spacings (balls) and 0.069 (ellipsoids) with a
-     * radius of 2 spacings, and of 0.033 and 0.036 with 3. On software Vulkan a step takes 1.6 to 2.7 times as long. */
+     * there is how many particles a kernel sees. Yu and Turk take the mean and the covariance of neighbours within two
+     * radii of the kernel, and their centers stay in that mean; that is where their flat water comes from, and it costs
+     * water. On particles out of order by 0.115 spacings, heights of the surface have an RMS of 0.075 spacings with
+     * balls and 0.078 with ellipsoids; 0.072 if centers stay in the mean, but the surface is 0.3 spacings too low;
+     * 0.053 with neighbours within two radii, 0.2 too low; and 0.042 with both, 0.9 too low. Here neighbours are those
+     * within one radius, as the grid has them. With a
+     * larger kernel_spacings water is flatter and keeps its volume: around its own large shape, such a surface has an
+     * RMS of 0.052 spacings (balls) and 0.069 (ellipsoids) with a radius of 2 spacings, and of 0.033 and 0.036 with 3.
+     * On software Vulkan a step takes 1.6 to 2.7 times as long. */
     VIRGA_WATER_KERNEL_ANISOTROPIC = 1,
 } virga_water_kernel;
 
@@ -414,6 +420,12 @@ VIRGA_API virga_result virga_water_prepare_view(virga_water *water, VkCommandBuf
  * surface goes on to the solid that the depth shows, with the meniscus of a contact angle of 20 degrees, and a thin
  * layer ends in a wedge. Not where a spacing is smaller than two pixels, nor with VIRGA_WATER_SHADING_SURFELS. A gap
  * behind a surface that is seen at less than 15 to 30 degrees stays: little of it is seen.
+ *
+ * A transparent solid, e.g. a windshield, that the depth does not contain has no contact line: the water ends half a
+ * spacing before it. Where the water is on the eye's side of it, draw it into a copy of the depth, and give this as
+ * virga_view.depth, with the color as it is: the surface goes on to it, and what is seen through the water is refracted
+ * as if it lay on it. Where the water is behind it, it would hide the water from such a copy. There let the simulation
+ * have it half a spacing nearer to the eye than it is: particles then end where their surface touches the real one.
  *
  * VIRGA_NOT_READY, logged once: the target is not attached, or nothing was prepared in this frame. */
 VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target);
