@@ -80,8 +80,8 @@ static void a_droplet_covers_its_disc_whatever_its_size(void **state)
     REQUIRE(worst[0] < 0.12 && worst[1] < 0.2);
 }
 
-/* A droplet of 0.8 px that comes 24 px along x while the shutter is open covers as much as at rest, around the middle of
- * its way. The variance along x grows by L^2 / 12. */
+/* A droplet of 0.8 px that comes 24 px along x while the shutter is open covers as much as at rest, around the middle
+ * of its way. The variance along x grows by L^2 / 12. */
 static void a_speck_that_moves_leaves_a_streak_with_the_same_cover(void **state)
 {
     (void)state;
