@@ -59,7 +59,7 @@ float depth_scale(Surfel s, float cosine, vec2 size_px, float radius_px, float d
     return mix(0.7, near_scale, smoothstep(MIN_PX, 2.0 * MIN_PX, radius_px));
 }
 
-#define MIN_STREAK_PX 1.0
+#define MIN_STREAK_PX 0.1
 #define MAX_STREAK_PX 1024.0
 
 // How far a surfel has come in the picture since the shutter opened, in pixels. Specks are drawn along it: else a
