@@ -41,6 +41,7 @@ typedef struct scene {
     host_accumulator sums;
     host_drawn picture;
     puddle puddle;
+    host_image dry[3];      /* maps of dry ground, which the renderer has bound until others come */
     virga_context *context; /* these for the haze before what water mirrors */
     virga_rain *rain;
     virga_target *mirror;
@@ -191,6 +192,8 @@ static int tear_down(void **state)
     host_drawn_destroy(&s->picture);
     host_renderer_destroy(&s->renderer);
     destroy_puddle(s, &s->puddle);
+    for (int i = 0; i < 3; i++)
+        host_image_destroy(&s->base.device, &s->dry[i]);
     host_environment_destroy(&s->base.device, &s->environment);
     host_mesh_destroy(&s->base.device, &s->cube);
     host_mesh_destroy(&s->base.device, &s->plane);
@@ -253,6 +256,93 @@ static void shade_under_cube(void **state)
     assert_int_equal(s->picture.id[beside], 1);
     assert_true(s->picture.color[under * 4] < 0.75f * s->picture.color[beside * 4]);
     assert_true(s->picture.color[under * 4] > 0.0f);
+}
+
+static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height, const void *texels, uint32_t texel,
+                     host_image *image)
+{
+    const host_image_def def = {
+        .format = format,
+        .extent = {width, height, 1},
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .name = "map of a puddle",
+    };
+    host_device *device = &s->base.device;
+    VkCommandBuffer cmd;
+    if (!host_image_create(device, &def, image, s->base.error, sizeof s->base.error) ||
+        !host_image_upload(device, image, texels, (VkDeviceSize)width * height * texel, texel, s->base.error,
+                           sizeof s->base.error) ||
+        !host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
+        return false;
+    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    return host_submit(device, s->base.error, sizeof s->base.error) &&
+           host_wait(device, s->base.error, sizeof s->base.error);
+}
+
+/* Share of a level surface's sky that a level square of 2 m a side hides, 1 m above: four times that of a corner. */
+static double hidden_by_square(void)
+{
+    const double slant = 1 / sqrt(2.0);
+    return 4 * (2 * slant * atan(slant)) / (2 * 3.14159265358979);
+}
+
+/* Ground that is dry, and may become wet. */
+static bool make_dry(scene *s, host_image images[3])
+{
+    static const uint32_t none[CELLS * CELLS * 2];
+    const bool made = make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, none, 8, &images[0]) &&
+                      make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &images[1]) &&
+                      make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &images[2]);
+    const virga_ground_maps maps = {.wetness = images[0].view,
+                                    .spots = images[1].view,
+                                    .ripples = images[2].view,
+                                    .ripple_texels = 16,
+                                    .ripple_texel_m = 1,
+                                    .cells = CELLS,
+                                    .cell_m = 0.5f,
+                                    .low_m = {-16, -16},
+                                    .high_m = {16, 16}};
+    host_renderer_set_ground(s->renderer, made ? &maps : NULL);
+    return made;
+}
+
+/* Light of a lamp at a pixel. */
+static double lamp_at(scene *s, size_t pixel, double x, double y, double z)
+{
+    const virga_light lamp = {.position_m = {x, y, z}, .intensity = {10, 10, 10}};
+    assert_true(draw(s, 1));
+    const double dark = (double)s->picture.color[pixel * 4];
+    host_renderer_set_lights(s->renderer, &lamp, 1);
+    assert_true(draw(s, 1));
+    host_renderer_set_lights(s->renderer, NULL, 0);
+    return (double)s->picture.color[pixel * 4] - dark;
+}
+
+/* Below the middle of the cube the sky is hidden as the closed form says (six distances in twelve directions: 0.1), and
+ * a lamp above the cube, but not one beside it. Where nothing is near all is as without the map. */
+static void ground_below_things_is_in_their_shade(void **state)
+{
+    scene *s = *state;
+    const double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    const int row = HEIGHT / 2 + (int)(focal_px * 1.5 / 8.0);
+    const size_t under = at(WIDTH / 2 - (int)(focal_px * 1.2 / 8.0), row), beside = at(2, row);
+    assert_true(draw(s, 1));
+    const float before[2] = {s->picture.color[under * 4], s->picture.color[beside * 4]};
+    const double above = lamp_at(s, under, 0, 8, 0), aside = lamp_at(s, under, 3, 2, 0);
+    s->cube.primitives[0].ground = false;
+    assert_true(make_dry(s, s->dry) && draw(s, 1));
+    const double left = (double)(s->picture.color[under * 4] / before[0]);
+    printf("%.3f of the sky is left, expected %.3f\n", left, 1 - hidden_by_square());
+    assert_float_equal(left, 1 - hidden_by_square(), 0.1);
+    assert_float_equal(s->picture.color[beside * 4], before[1], 1e-6);
+    assert_true(lamp_at(s, under, 0, 8, 0) < 0.01 * above);
+    assert_true(lamp_at(s, under, 3, 2, 0) > 0.95 * aside);
+    host_renderer_set_ground(s->renderer, NULL);
+    assert_true(draw(s, 1));
+    assert_float_equal(s->picture.color[under * 4], before[0], 1e-6);
+    s->cube.primitives[0].ground = true;
 }
 
 static void sky_pixel(void **state)
@@ -322,29 +412,6 @@ static void splash_layer(void **state)
 }
 
 /* ---- a mirror of water -------------------------------------------------------------------------------------- */
-
-static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height, const void *texels, uint32_t texel,
-                     host_image *image)
-{
-    const host_image_def def = {
-        .format = format,
-        .extent = {width, height, 1},
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = "map of a puddle",
-    };
-    host_device *device = &s->base.device;
-    VkCommandBuffer cmd;
-    if (!host_image_create(device, &def, image, s->base.error, sizeof s->base.error) ||
-        !host_image_upload(device, image, texels, (VkDeviceSize)width * height * texel, texel, s->base.error,
-                           sizeof s->base.error) ||
-        !host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
-        return false;
-    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    return host_submit(device, s->base.error, sizeof s->base.error) &&
-           host_wait(device, s->base.error, sizeof s->base.error);
-}
 
 /* Wetness 1, 5 mm, waves whose slopes have a variance (a half float's bits), height 0. */
 static bool make_wet(scene *s, uint16_t variance, host_image *wet)
@@ -551,6 +618,7 @@ int main(void)
         cmocka_unit_test(cube_pixel),
         cmocka_unit_test(plane_pixel),
         cmocka_unit_test(shade_under_cube),
+        cmocka_unit_test(ground_below_things_is_in_their_shade),
         cmocka_unit_test(sky_pixel),
         cmocka_unit_test(lamp_light),
         cmocka_unit_test(sub_frames),

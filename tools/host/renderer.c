@@ -33,6 +33,7 @@ static void write_frame(const host_renderer *r)
     write_image(r, FRAME_AT_FAR_WETNESS, HOST_SAMPLE_NEAREST, &r->white);
     write_image(r, FRAME_AT_MIRROR_NEAR, HOST_SAMPLE_LINEAR, &r->white);
     write_image(r, FRAME_AT_SHELTER, HOST_SAMPLE_NEAREST, &r->white);
+    write_image(r, FRAME_AT_CONTACT, HOST_SAMPLE_NEAREST, &r->white);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------------------------- */
@@ -66,7 +67,8 @@ bool host_renderer_create(host_device *device, host_renderer **renderer, char *e
                                  HOST_BUFFER_DEVICE, "plate frame", &r->frame_buffer, error, error_size) &&
               create_white(r, error, error_size) && create_blank_spots(r, error, error_size) &&
               host_renderer_create_bindings(r, error, error_size) &&
-              host_skylight_create(device, r->material_layout, &r->skylight, error, error_size);
+              host_skylight_create(device, r->material_layout, &r->skylight, error, error_size) &&
+              host_contact_create(device, r->skylight.pass, &r->contact, error, error_size);
     if (ok)
         write_frame(r);
     else
@@ -96,6 +98,7 @@ void host_renderer_destroy(host_renderer **renderer)
     host_samplers_destroy(r->device, r->samplers);
     host_skylight_destroy(r->device, &r->skylight);
     host_shelter_destroy(r->device, &r->shelter);
+    host_contact_destroy(r->device, &r->contact);
     host_mirror_destroy(r->device, &r->mirror);
     host_image_destroy(r->device, &r->white);
     host_image_destroy(r->device, &r->blank_spots);
@@ -162,6 +165,7 @@ void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
     const bool other = maps && maps->wetness != r->ground.wetness;
     r->ground = maps ? *maps : (virga_ground_maps){0};
     if (other) {
+        write_image(r, FRAME_AT_CONTACT, HOST_SAMPLE_LINEAR, &r->contact.shade);
         write_view(r, FRAME_AT_WETNESS, HOST_SAMPLE_NEAREST, maps->wetness, VK_IMAGE_LAYOUT_GENERAL);
         write_view(r, FRAME_AT_SPOTS, HOST_SAMPLE_NEAREST, maps->spots, VK_IMAGE_LAYOUT_GENERAL);
         write_view(r, FRAME_AT_RIPPLES, HOST_SAMPLE_LINEAR, maps->ripples, VK_IMAGE_LAYOUT_GENERAL);

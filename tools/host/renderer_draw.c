@@ -196,7 +196,7 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     }
 }
 
-enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2 };
+enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2, DRAW_GROUND = 4, DRAW_NO_GROUND = 8 };
 
 /* Draws everything but glass into a depth map: of one direction of the sky, or of the rain. */
 static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float map_from_world[16], int parts)
@@ -216,7 +216,8 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float ma
             const host_primitive *primitive = &mesh->primitives[i];
             const host_material *material = &mesh->materials[primitive->material];
             if (!is_drawn_by(material, parts & DRAW_CUTOUTS ? HOST_PIPELINE_CUTOUT : HOST_PIPELINE_DEPTH) ||
-                ((parts & DRAW_NO_LEAVES) && primitive->surface == VIRGA_MATERIAL_LEAVES))
+                ((parts & DRAW_NO_LEAVES) && primitive->surface == VIRGA_MATERIAL_LEAVES) ||
+                (parts & (primitive->ground ? DRAW_NO_GROUND : DRAW_GROUND)))
                 continue;
             if (parts & DRAW_CUTOUTS) {
                 host_skylight_push(s, cmd, map_from_world, material->base_color[3], material->cutoff);
@@ -260,6 +261,29 @@ static void update_shelter(host_renderer *r, VkCommandBuffer cmd, const host_cam
     if (r->has_walls)
         draw_map(r, cmd, s->map_from_world, DRAW_NO_LEAVES); /* these let rain through, soon as drips */
     host_shelter_end(s, cmd);
+    host_label_end(r->device, cmd);
+}
+
+/* Only wet ground has it. */
+static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
+{
+    static const int parts[HOST_CONTACT_MAPS] = {[HOST_CONTACT_GROUND] = DRAW_GROUND,
+                                                 [HOST_CONTACT_UNDER] = DRAW_NO_GROUND,
+                                                 [HOST_CONTACT_OVER] = DRAW_NO_GROUND};
+    float low[3], high[3], map_from_world[16];
+    find_bounds(r, low, high);
+    if (!r->ground.cells || !host_contact_place(&r->contact, camera, (double)low[1], (double)high[1]))
+        return;
+    host_label_begin(r->device, cmd, "contact");
+    for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
+        host_contact_begin(&r->contact, cmd, r->skylight.pass, (host_contact_map)i);
+        for (uint32_t look = 0; look < (i == HOST_CONTACT_UNDER ? HOST_CONTACT_LOOKS : 1); look++) {
+            host_contact_look(&r->contact, (host_contact_map)i, look, map_from_world);
+            draw_map(r, cmd, map_from_world, parts[i]);
+        }
+        host_contact_end(cmd);
+    }
+    host_contact_gather(&r->contact, cmd);
     host_label_end(r->device, cmd);
 }
 
@@ -330,6 +354,7 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
     struct host_frame_gpu frame;
     update_skylight(r, cmd, camera);
     update_shelter(r, cmd, camera);
+    update_contact(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
     if (!record_mirror(r, cmd, &frame, camera, error, error_size))

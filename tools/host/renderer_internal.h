@@ -2,6 +2,7 @@
 #ifndef VIRGA_HOST_RENDERER_INTERNAL_H
 #define VIRGA_HOST_RENDERER_INTERNAL_H
 
+#include "contact.h"
 #include "descriptors.h"
 #include "mirror.h"
 #include "renderer.h"
@@ -36,6 +37,7 @@ enum {
     FRAME_AT_FAR_WETNESS, /* of the ground beyond the simulated window */
     FRAME_AT_MIRROR_NEAR, /* distances in the mirror */
     FRAME_AT_SHELTER,     /* where walls stay dry */
+    FRAME_AT_CONTACT,     /* shade where things stand on the ground */
     FRAME_BINDINGS,
 };
 
@@ -65,6 +67,7 @@ struct host_renderer {
     void *haze_user;
     host_skylight skylight;
     host_shelter shelter;
+    host_contact contact;
     bool has_walls; /* else all walls are dry */
     virga_walls walls;
     const host_environment *environment;

@@ -62,6 +62,8 @@ struct host_frame_gpu {
     HOST_VEC4 shelter_low;
     HOST_VEC4 shelter_slant; /* of the rain, x and z; z: standard deviation; w: 1 / side of the map */
     HOST_VEC4 walls[HOST_WALL_ROWS * HOST_WALL_MATERIALS]; /* virga_wall_gpu, row by row */
+    /* low corner of the map of contact shade relative to the camera, 1 / side; w 0: no map */
+    HOST_VEC4 contact;
     HOST_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     HOST_LIGHT lights[HOST_MAX_LIGHTS];
 };
@@ -91,6 +93,15 @@ struct host_skylight_gpu {
 struct host_skylight_draw_gpu { /* push constants */
     HOST_MAT4 map_from_world;
     HOST_VEC4 cutout; /* alpha of the material, cutoff */
+};
+
+/* ---- shade where things stand on the ground ----------------------------------------------------------------- */
+
+#define HOST_CONTACT_FAR 4.0 /* metres above the ground: what is higher is not told apart */
+
+struct host_contact_gpu { /* push constants */
+    float height_m;       /* from depth 0 to depth 1 of its maps */
+    float texel_m;
 };
 
 /* ---- sums of sub-frames ------------------------------------------------------------------------------------- */

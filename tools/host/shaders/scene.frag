@@ -95,6 +95,35 @@ vec3 specular_lobe(vec3 f0, float roughness, float n_l, float n_v, vec3 n, vec3 
     return (f0 + (1.0 - f0) * (c2 * c2 * c)) * (distribution * visibility);
 }
 
+#ifdef WET
+layout(set = 0, binding = 11) uniform sampler2D contact_map;
+
+// Distances towards a lamp at which something may stand in its light. What is farther casts no shadow. Of pictures that
+// are averaged each looks a little nearer or farther.
+const int CONTACT_LOOKS = 8;
+const float CONTACT_M[CONTACT_LOOKS] = float[](0.03, 0.07, 0.13, 0.22, 0.36, 0.56, 0.84, 1.2);
+const float CONTACT_SOFT_M = 0.02, CONTACT_SOFT = 0.12; // edges of shadows: of lamps of 12 cm a metre away
+
+bool near_things = false; // of this pixel
+
+// What is left of a lamp's light, in direction l, on ground.
+float lamp_left(vec3 l)
+{
+    const float flat_l = length(l.xz), rise = l.y / max(flat_l, 1e-4);
+    const vec2 along = l.xz / max(flat_l, 1e-4), at = in_relative.xz - frame.contact.xz;
+    const float side = float(textureSize(contact_map, 0).x) * frame.contact.w, apart = 1.0 + 0.35 * frame.screen.z;
+    float left = 1.0, before = 0.0; // height of the ray at the look before: it is between both
+    for (int i = 0; i < CONTACT_LOOKS; i++) {
+        const float away = CONTACT_M[i] * apart, high = away * rise, soft = CONTACT_SOFT_M + CONTACT_SOFT * away;
+        const vec2 things = texelFetch(contact_map, ivec2((at + along * away) * side), 0).zw;
+        const vec2 inside = clamp(vec2(high - things.x, things.y - before) / soft + 0.5, 0.0, 1.0);
+        left = min(left, 1.0 - inside.x * inside.y * (1.0 - smoothstep(0.8, 1.5, away)));
+        before = high;
+    }
+    return left;
+}
+#endif
+
 vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
 {
     vec3 sum = vec3(0.0);
@@ -111,6 +140,9 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
         float reach = window * window * spot * spot;
         if (n_l > 0.0 && reach > 0.0) {
             vec3 brdf = albedo / PI + specular_lobe(f0, roughness, n_l, n_v, n, v, l);
+#ifdef WET
+            reach *= near_things ? lamp_left(l) : 1.0;
+#endif
             sum += frame.lights[i].intensity.rgb * brdf * (n_l * reach / distance2);
         }
     }
@@ -118,6 +150,19 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
 }
 
 #ifdef WET
+// What near things leave of what is seen of the sky.
+float contact_shade(vec3 n)
+{
+    const vec2 at = (in_relative.xz - frame.contact.xz) * frame.contact.w, inside = min(at, 1.0 - at);
+    const float known = smoothstep(0.0, 0.05, min(inside.x, inside.y)) * smoothstep(HOST_LEVEL_Y, 0.6, n.y);
+    if (frame.contact.w <= 0.0 || known <= 0.0)
+        return 1.0;
+    const vec2 found = textureLod(contact_map, at, 0.0).xy;
+    const float same = abs(in_relative.y - frame.contact.y - found.y) < 0.3 ? known : 0.0;
+    near_things = same > 0.0 && found.x < 0.999;
+    return mix(1.0, found.x, same);
+}
+
 // A level mirror of water over a colour: of the scene where that is known, else of the sky that is left.
 vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
 {
@@ -205,6 +250,9 @@ void main()
     wet_wall(wall, metallic, albedo, roughness, f0);
 #endif
     vec4 moments = sky_moments(n);
+#ifdef WET
+    moments *= bits >= HOST_GROUND ? contact_shade(n) : 1.0;
+#endif
     vec3 r = reflect(-v, n);
     vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
 #ifdef WET
@@ -219,7 +267,6 @@ void main()
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water), water.puddle);
 #endif
-
     float alpha = 1.0;
     if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it
         alpha = base.a;

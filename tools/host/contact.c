@@ -1,0 +1,143 @@
+/* contact.c - see contact.h. */
+#include "contact.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "pipeline.h"
+
+#include "contact_comp.spv.h"
+
+#define MAP_SIZE 768
+#define GROUP    8 /* of the gather pass, along a side */
+#define SIDE_M   20.0
+#define AHEAD_M  6.5 /* its middle is so far before the camera */
+#define STEP_M   2.0 /* in steps, so that it is not made in every frame */
+#define EYES_M   1.6 /* of the camera above the ground, about */
+#define SLANT    0.25f
+
+static const VkDescriptorType kinds[HOST_CONTACT_MAPS + 1] = {
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+
+static bool create_images(host_device *device, VkRenderPass pass, host_contact *c, char *error, size_t error_size)
+{
+    const host_image_def depth = {
+        .format = VK_FORMAT_D32_SFLOAT,
+        .extent = {MAP_SIZE, MAP_SIZE, 1},
+        .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = "contact map",
+    };
+    const host_image_def shade = {
+        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+        .extent = {MAP_SIZE, MAP_SIZE, 1},
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = "contact shade",
+    };
+    for (int i = 0; i < HOST_CONTACT_MAPS; i++)
+        if (!host_image_create(device, &depth, &c->maps[i], error, error_size) ||
+            !host_slice_create(device, pass, &c->maps[i], 0, 0, &c->slices[i], error, error_size))
+            return false;
+    return host_image_create(device, &shade, &c->shade, error, error_size);
+}
+
+bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *c, char *error, size_t error_size)
+{
+    const host_bindings_def def = {.shape = {kinds, HOST_CONTACT_MAPS + 1, VK_SHADER_STAGE_COMPUTE_BIT},
+                                   .set_count = 1,
+                                   .push_stages = VK_SHADER_STAGE_COMPUTE_BIT,
+                                   .push_bytes = sizeof(struct host_contact_gpu)};
+    memset(c, 0, sizeof *c);
+    if (!create_images(device, pass, c, error, error_size) ||
+        !host_bindings_create(device, &def, &c->bindings, error, error_size) ||
+        !host_sampler_create(device, HOST_SAMPLE_NEAREST, &c->sampler, error, error_size) ||
+        !host_compute_create(device, HOST_CODE(contact_comp), c->bindings.layout, &c->gather, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < HOST_CONTACT_MAPS; i++)
+        host_set_write_image(device, c->bindings.sets[0], i, c->sampler, c->maps[i].view,
+                             VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    host_set_write_image(device, c->bindings.sets[0], HOST_CONTACT_MAPS, VK_NULL_HANDLE, c->shade.view,
+                         VK_IMAGE_LAYOUT_GENERAL);
+    return true;
+}
+
+void host_contact_destroy(host_device *device, host_contact *c)
+{
+    vkDestroyPipeline(device->device, c->gather, NULL);
+    host_bindings_destroy(device, &c->bindings);
+    vkDestroySampler(device->device, c->sampler, NULL);
+    for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
+        host_slice_destroy(device, &c->slices[i]);
+        host_image_destroy(device, &c->maps[i]);
+    }
+    host_image_destroy(device, &c->shade);
+    memset(c, 0, sizeof *c);
+}
+
+bool host_contact_place(host_contact *c, const host_camera *camera, double low_m, double high_m)
+{
+    const host_contact before = *c;
+    const float *m = camera->view_from_world; /* its third row points back */
+    const double length = hypot((double)m[2], (double)m[10]);
+    for (int axis = 0; axis < 3; axis += 2) {
+        const double ahead = length > 1e-3 ? -AHEAD_M * (double)m[2 + 4 * axis] / length : 0;
+        c->low_m[axis] = floor((camera->position_m[axis] + ahead - 0.5 * SIDE_M) / STEP_M + 0.5) * STEP_M;
+    }
+    c->low_m[1] = low_m - 0.1;
+    c->height_m = fmax(high_m - low_m + 0.2, 1);
+    c->level_m = floor(camera->position_m[1] - EYES_M + 0.5);
+    return !c->ready || memcmp(before.low_m, c->low_m, sizeof c->low_m) != 0 ||
+           memcmp(&before.height_m, &c->height_m, sizeof c->height_m) != 0 ||
+           memcmp(&before.level_m, &c->level_m, sizeof c->level_m) != 0;
+}
+
+/* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things
+ * have no bottom: so undersides are seen along five lines. What that moves beyond a thing has no top there. */
+void host_contact_look(const host_contact *c, host_contact_map map, uint32_t look, float m[16])
+{
+    static const float slants[HOST_CONTACT_LOOKS][2] = {{0, 0}, {SLANT, 0}, {-SLANT, 0}, {0, SLANT}, {0, -SLANT}};
+    const float scale = (float)(2 / SIDE_M), rise = (float)(1 / c->height_m);
+    const bool over = map == HOST_CONTACT_OVER;
+    memset(m, 0, 16 * sizeof *m);
+    m[0] = m[9] = scale;
+    m[6] = over ? -rise : rise;
+    for (int axis = 0; axis < 2; axis++) {
+        m[4 + axis] = scale * slants[look][axis];
+        m[12 + axis] = -scale * (float)(c->low_m[2 * axis] + 0.5 * SIDE_M + (double)slants[look][axis] * c->level_m);
+    }
+    m[14] = over ? 1 + rise * (float)c->low_m[1] : -rise * (float)c->low_m[1];
+    m[15] = 1;
+}
+
+void host_contact_begin(const host_contact *c, VkCommandBuffer cmd, VkRenderPass pass, host_contact_map map)
+{
+    host_pass_begin(cmd, pass, c->slices[map].framebuffer, MAP_SIZE, MAP_SIZE, 0);
+}
+
+void host_contact_end(VkCommandBuffer cmd)
+{
+    vkCmdEndRenderPass(cmd);
+}
+
+void host_contact_gather(host_contact *c, VkCommandBuffer cmd)
+{
+    const struct host_contact_gpu push = {.height_m = (float)c->height_m, .texel_m = (float)(SIDE_M / MAP_SIZE)};
+    host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_SHADER_WRITE_BIT);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->gather);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->bindings.layout, 0, 1, c->bindings.sets, 0, NULL);
+    vkCmdPushConstants(cmd, c->bindings.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+    vkCmdDispatch(cmd, MAP_SIZE / GROUP, MAP_SIZE / GROUP, 1);
+    host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    c->ready = true;
+}
+
+void host_contact_frame(const host_contact *c, const double camera_m[3], struct host_frame_gpu *frame)
+{
+    for (int axis = 0; axis < 3; axis++)
+        frame->contact[axis] = (float)(c->low_m[axis] - camera_m[axis]);
+    frame->contact[3] = (float)(1 / SIDE_M);
+}
