@@ -104,7 +104,15 @@ const int CONTACT_LOOKS = 8;
 const float CONTACT_M[CONTACT_LOOKS] = float[](0.03, 0.07, 0.13, 0.22, 0.36, 0.56, 0.84, 1.2);
 const float CONTACT_SOFT_M = 0.02, CONTACT_SOFT = 0.12; // edges of shadows: of lamps of 12 cm a metre away
 
+const float CONTACT_LEAST = 0.002; // light that is less is left as it is
+
 bool near_things = false; // of this pixel
+
+float lamp_power(int i)
+{
+    const vec3 intensity = frame.lights[i].intensity.rgb;
+    return max(max(intensity.r, intensity.g), intensity.b);
+}
 
 // What is left of a lamp's light, in direction l, on ground.
 float lamp_left(vec3 l)
@@ -141,7 +149,8 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
         if (n_l > 0.0 && reach > 0.0) {
             vec3 brdf = albedo / PI + specular_lobe(f0, roughness, n_l, n_v, n, v, l);
 #ifdef WET
-            reach *= near_things ? lamp_left(l) : 1.0;
+            if (near_things && n_l * reach * lamp_power(i) > CONTACT_LEAST * distance2)
+                reach *= lamp_left(l);
 #endif
             sum += frame.lights[i].intensity.rgb * brdf * (n_l * reach / distance2);
         }
@@ -159,7 +168,7 @@ float contact_shade(vec3 n)
         return 1.0;
     const vec2 found = textureLod(contact_map, at, 0.0).xy;
     const float same = abs(in_relative.y - frame.contact.y - found.y) < 0.3 ? known : 0.0;
-    near_things = same > 0.0 && found.x < 0.999;
+    near_things = same > 0.0 && found.x < 0.99;
     return mix(1.0, found.x, same);
 }
 
