@@ -45,6 +45,9 @@ typedef struct scene {
     virga_context *context; /* these for the haze before what water mirrors */
     virga_rain *rain;
     virga_target *mirror;
+    bool skip;      /* every second sub-frame is without the second layer */
+    bool share;     /* some look into the mirror of the one before; else each has its own */
+    double apart_s; /* from a sub-frame to the next; their number is known to the renderer */
 } scene;
 
 static host_material matte(float albedo)
@@ -134,7 +137,9 @@ static bool draw(scene *s, uint32_t samples)
         host_camera now, before;
         VkCommandBuffer cmd;
         host_camera_jitter(i, samples, jitter);
-        host_camera_at(&path, 0.5, WIDTH, HEIGHT, jitter, &now);
+        host_camera_at(&path, 0.5 + i * s->apart_s, WIDTH, HEIGHT, jitter, &now);
+        now.samples = s->apart_s > 0 ? samples : 0;
+        now.sample = s->share ? i : 0;
         host_camera_at(&path, 0.5 - 1.0 / 24.0, WIDTH, HEIGHT, jitter, &before);
         if (!host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
             return false;
@@ -149,6 +154,8 @@ static bool draw(scene *s, uint32_t samples)
         }
         host_target_begin_layer(&s->target, cmd);
         host_target_end_layer(&s->target, cmd);
+        if (s->skip && i % 2)
+            host_accumulator_skip(&s->sums, HOST_LAYER + 1);
         if (!host_accumulator_add(&s->sums, cmd, &s->target, false, s->base.error, sizeof s->base.error))
             return false;
         if (i + 1 == samples)
@@ -411,6 +418,24 @@ static void splash_layer(void **state)
     assert_float_equal(s->picture.color[pixel], plate, 1e-6);
 }
 
+/* A layer that only the first and the third of four sub-frames add is the mean of these two, and all else that of all
+ * four. After splash_layer, which has made it. */
+static void skipped_layer(void **state)
+{
+    scene *s = *state;
+    const size_t pixel = at(4, HEIGHT - 3) * 4;
+    assert_true(draw(s, 4));
+    const float plate = s->picture.color[pixel];
+    assert_float_equal(s->picture.layers[1][pixel], 0.625, 1e-6);
+    s->skip = true;
+    assert_true(draw(s, 4));
+    s->skip = false;
+    assert_float_equal(s->picture.layers[1][pixel], 0.5, 1e-6);
+    assert_float_equal(s->picture.color[pixel], plate, 0.0);
+    assert_true(draw(s, 4));
+    assert_float_equal(s->picture.layers[1][pixel], 0.625, 1e-6);
+}
+
 /* ---- a mirror of water -------------------------------------------------------------------------------------- */
 
 /* Wetness 1, 5 mm, waves whose slopes have a variance (a half float's bits), height 0. */
@@ -510,6 +535,39 @@ static void water_mirrors_wall(void **state)
     host_renderer_set_ground(s->renderer, NULL);
     assert_true(draw(s, 1));
     assert_float_equal(redness(s, 88, 74), 0.0, 0.01);
+}
+
+/* The mean column of the wall's light in the mirror. */
+static double mirrored_column(const scene *s)
+{
+    double sum = 0, columns = 0;
+    for (int y = 60; y < HEIGHT - 1; y++)
+        for (int x = WIDTH / 2; x < WIDTH - 1; x++) {
+            sum += (double)redness(s, x, y);
+            columns += x * (double)redness(s, x, y);
+        }
+    return columns / sum;
+}
+
+/* Four sub-frames look into a mirror that the first of them has drawn, while the camera goes 7 cm to the right from
+ * each to the next. They see the wall where each would see it in a mirror of its own. Seen as by the first, it would
+ * be half a pixel off. After water_mirrors_wall. */
+static void mirror_of_another_sub_frame(void **state)
+{
+    scene *s = *state;
+    double columns[2];
+    host_renderer_set_ground(s->renderer, &s->puddle.maps);
+    s->apart_s = 0.03;
+    for (int i = 0; i < 2; i++) {
+        s->share = i;
+        assert_true(draw(s, 16));
+        columns[i] = mirrored_column(s);
+    }
+    s->share = false;
+    s->apart_s = 0;
+    host_renderer_set_ground(s->renderer, NULL);
+    printf("columns %.3f and %.3f\n", columns[0], columns[1]);
+    assert_float_equal(columns[0], columns[1], 0.1);
 }
 
 static bool open_rain(scene *s)
@@ -623,7 +681,9 @@ int main(void)
         cmocka_unit_test(lamp_light),
         cmocka_unit_test(sub_frames),
         cmocka_unit_test(splash_layer),
+        cmocka_unit_test(skipped_layer),
         cmocka_unit_test(water_mirrors_wall),
+        cmocka_unit_test(mirror_of_another_sub_frame),
         cmocka_unit_test(haze_veils_what_water_mirrors),
         cmocka_unit_test(waves_mirror_without_sparks),
     };

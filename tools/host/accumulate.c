@@ -73,6 +73,11 @@ static bool is_summed(const host_target *target, int output)
     return target->images[output].image && !is_kept(target, (host_output)output);
 }
 
+static bool is_added(const host_accumulator *a, const host_target *target, int output)
+{
+    return is_summed(target, output) && !(a->skipped & 1u << output);
+}
+
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
 /* The output, the sum, weights. */
@@ -137,9 +142,22 @@ static bool create_weights(host_accumulator *a, char *error, size_t error_size)
 
 void host_accumulator_reset(host_accumulator *a)
 {
-    a->samples = 0;
+    a->samples = a->skipped = 0;
+    memset(a->counts, 0, sizeof a->counts);
     free(a->weight_sums);
     a->weight_sums = NULL;
+}
+
+uint32_t host_accumulator_share(uint32_t samples)
+{
+    if (samples >= 16 && samples % 4 == 0)
+        return 4;
+    return samples >= 8 && samples % 2 == 0 ? 2 : 1;
+}
+
+void host_accumulator_skip(host_accumulator *a, host_output output)
+{
+    a->skipped |= 1u << output;
 }
 
 static uint32_t slot_of(const host_accumulator *a)
@@ -175,7 +193,7 @@ static bool prepare(host_accumulator *a, const host_target *target, host_output 
 
 static void add(const host_accumulator *a, VkCommandBuffer cmd, host_output output)
 {
-    const struct host_accumulate_gpu push = {a->width, a->height, a->samples == 0, a->weight_sums != NULL};
+    const struct host_accumulate_gpu push = {a->width, a->height, a->counts[output] == 0, a->weight_sums != NULL};
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, host_output_channels(output) == 2 ? a->add_pair : a->add);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, a->layout, 0, 1, &a->sets[slot_of(a)][output], 0,
                             NULL);
@@ -191,21 +209,24 @@ bool host_accumulator_add(host_accumulator *a, VkCommandBuffer cmd, const host_t
     uint32_t kept = 0;
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
         kept |= is_kept(target, (host_output)i) ? 1u << i : 0;
-        if (is_summed(target, i) && !a->samples && !prepare(a, target, (host_output)i, error, error_size))
+        if (is_added(a, target, i) && !a->counts[i] && !prepare(a, target, (host_output)i, error, error_size))
             return false;
     }
     host_label_begin(a->device, cmd, "accumulate");
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        if (is_summed(target, i))
+        if (is_added(a, target, i))
             host_target_begin_read(target, cmd, (host_output)i);
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        if (is_summed(target, i))
+        if (is_added(a, target, i))
             add(a, cmd, (host_output)i);
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        if (is_summed(target, i))
+        if (is_added(a, target, i))
             host_target_end_read(target, cmd, (host_output)i);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        a->counts[i] += is_added(a, target, i);
+    a->skipped = 0;
     if (keep || !a->samples)
         host_target_copy_out(target, cmd, kept);
     host_label_end(a->device, cmd);
@@ -230,10 +251,10 @@ void host_accumulator_copy_out(const host_accumulator *a, VkCommandBuffer cmd, c
 
 /* ---- means -------------------------------------------------------------------------------------------------- */
 
-static void divide(const host_accumulator *a, const float *sums, size_t channels, float *means)
+static void divide(const host_accumulator *a, const float *sums, host_output output, float *means)
 {
-    const size_t pixels = (size_t)a->width * a->height;
-    const float factor = 1.0f / (float)a->samples;
+    const size_t pixels = (size_t)a->width * a->height, channels = host_output_channels(output);
+    const float factor = 1.0f / (float)a->counts[output];
     if (!a->weight_sums) {
         for (size_t i = 0; i < pixels * channels; i++)
             means[i] = sums[i] * factor;
@@ -265,8 +286,7 @@ void host_accumulator_finish(const host_accumulator *a, const host_target *targe
         if (!target->images[i].image)
             continue;
         if (is_summed(target, i))
-            divide(a, host_target_floats(a->device, target, output), host_output_channels(output),
-                   floats_of(p, output));
+            divide(a, host_target_floats(a->device, target, output), output, floats_of(p, output));
         else if (i >= HOST_LAYER)
             memcpy(floats_of(p, output), host_target_floats(a->device, target, output), pixels * 4 * sizeof(float));
     }

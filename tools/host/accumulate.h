@@ -32,6 +32,8 @@ typedef struct host_accumulator {
     host_device *device;
     uint32_t width, height;
     uint32_t samples;
+    uint32_t counts[HOST_OUTPUT_COUNT];  /* of these, those that have added an output */
+    uint32_t skipped;                    /* bits of outputs that the next one does not add */
     host_buffer sums[HOST_OUTPUT_COUNT]; /* created on first use */
     host_buffer weights[HOST_FRAMES];    /* of each pixel, see host_accumulator_weigh; created on first use */
     float *weight_sums;                  /* NULL: all weights are 1 */
@@ -42,6 +44,10 @@ typedef struct host_accumulator {
     VkDescriptorSet sets[HOST_FRAMES][HOST_OUTPUT_COUNT];
     VkPipeline add, add_pair;
 } host_accumulator;
+
+/* Sub-frames that share one picture of what hardly differs between them but at edges: 1, 2 or 4 of a number of samples,
+ * which it divides. At least four pictures are left to average, as many as smooth an edge of little contrast. */
+uint32_t host_accumulator_share(uint32_t samples);
 
 /* On failure nothing is left. The device must outlive it. */
 bool host_accumulator_create(host_device *device, uint32_t width, uint32_t height, host_accumulator *accumulator,
@@ -54,6 +60,10 @@ void host_accumulator_reset(host_accumulator *accumulator);
 /* Weights of the pixels of the next sub-frame, to be filled between host_begin_frame and host_accumulator_add. They are
  * asked for from the first sub-frame on, or never. NULL: no memory. */
 float *host_accumulator_weigh(host_accumulator *accumulator, char *error, size_t error_size);
+
+/* The next sub-frame does not have this output, which is averaged from the others: one that hardly differs between
+ * them. At least one must add it. Not with weights. */
+void host_accumulator_skip(host_accumulator *accumulator, host_output output);
 
 /* Records that all outputs of a target are added, after they are drawn. The same target and the same order give the
  * same bits. With `keep`, depth, id and the target's kept layers are those of this sub-frame; without any `keep` those

@@ -39,6 +39,7 @@ typedef struct host_camera {
     float clip_from_view_plain[16]; /* without */
     float jitter_px[2];             /* shifts the picture right and down */
     uint32_t samples; /* number of jittered pictures that are averaged; 0 means 1, as host_camera_at sets it */
+    uint32_t sample;  /* which of them this is, from 0 on */
     double near_m, far_m;
     uint32_t width, height;
 } host_camera;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "accumulate.h"
 #include "renderer_internal.h"
 
 #define MIN_ROUGHNESS 0.04f /* below, highlights of point lights fall between pixels */
@@ -327,13 +328,39 @@ static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, cons
     vkCmdEndRenderPass(cmd);
 }
 
+static bool anything_moves(const host_renderer *r)
+{
+    bool moves = false;
+    for (uint32_t i = 0; i < r->entry_count && !moves; i++)
+        moves = r->entries[i].mesh->moves;
+    return moves;
+}
+
+/* Sub-frames that look into one picture of the mirror. Water blurs its detail. What moves in it must be as smooth as
+ * the same in front of it. */
+static uint32_t mirror_share(const host_renderer *r, const host_camera *camera)
+{
+    return anything_moves(r) ? 1 : host_accumulator_share(camera->samples);
+}
+
+/* The sub-frame's camera with a jitter of its own: those of every second or fourth sub-frame are alike. */
+static host_camera mirror_camera(const host_camera *camera, uint32_t share)
+{
+    host_camera own = *camera;
+    const float sides[2] = {(float)camera->width, (float)camera->height};
+    if (share == 1)
+        return own;
+    host_camera_jitter(camera->sample / share, camera->samples / share, own.jitter_px);
+    for (int axis = 0; axis < 2; axis++)
+        own.clip_from_view[8 + axis] = own.clip_from_view_plain[8 + axis] - 2.0f * own.jitter_px[axis] / sides[axis];
+    return own;
+}
+
 /* The pass is begun even if nothing is drawn, because the plate's shaders need the images in their layouts. */
-static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
-                          const host_camera *camera, char *error, size_t error_size)
+static bool draw_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
+                        const host_camera *camera, char *error, size_t error_size)
 {
     drawing d = {.renderer = r, .cmd = cmd, .pass = r->mirror.pass, .error = error, .error_size = error_size};
-    if (!r->mirror.width)
-        return true;
     host_label_begin(r->device, cmd, "mirror");
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
     host_mirror_begin(&r->mirror, cmd);
@@ -347,6 +374,21 @@ static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const struct ho
     return !d.failed;
 }
 
+static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                          const host_camera *previous, char *error, size_t error_size)
+{
+    const uint32_t share = mirror_share(r, camera);
+    struct host_frame_gpu frame;
+    if (!r->mirror.width || (r->mirror_drawn && camera->sample % share))
+        return true;
+    const host_camera own = mirror_camera(camera, share);
+    host_renderer_fill_frame(r, target, &own, previous, &frame);
+    record_frame(r, cmd, &frame);
+    host_renderer_place_mirror(r, &own, &frame);
+    r->mirror_drawn = draw_mirror(r, cmd, &frame, &own, error, error_size);
+    return r->mirror_drawn;
+}
+
 /* What both draws over a plate begin with: buffers of the frame, the mirror, and the descriptors. */
 static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                         const host_camera *previous, const char *label, char *error, size_t error_size)
@@ -355,10 +397,11 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
     update_skylight(r, cmd, camera);
     update_shelter(r, cmd, camera);
     update_contact(r, cmd, camera);
-    host_renderer_fill_frame(r, target, camera, previous, &frame);
-    record_frame(r, cmd, &frame);
-    if (!record_mirror(r, cmd, &frame, camera, error, error_size))
+    if (!record_mirror(r, cmd, target, camera, previous, error, error_size))
         return false;
+    host_renderer_fill_frame(r, target, camera, previous, &frame);
+    host_renderer_look_at_mirror(r, camera, &frame);
+    record_frame(r, cmd, &frame);
     host_label_begin(r->device, cmd, label);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
     return true;

@@ -89,6 +89,43 @@ static void fill_mirror(const host_renderer *r, const host_camera *camera, struc
     frame->mirror[2] = r->mirror.width && r->ground.cells && frame->mirror[0] < 0.0f && lowest < 0.0f;
 }
 
+void host_renderer_place_mirror(host_renderer *r, const host_camera *camera, const struct host_frame_gpu *frame)
+{
+    const float sides[2] = {(float)r->mirror.width, (float)r->mirror.height};
+    r->mirror_shows = frame->mirror[2];
+    memcpy(r->mirror_eye_m, camera->position_m, sizeof r->mirror_eye_m);
+    for (int column = 0; column < 4; column++) {
+        const float *from = &frame->clip_from_relative[column * 4];
+        float *to = &r->mirror_clip[column * 4];
+        memcpy(to, from, 4 * sizeof *to);
+        for (int axis = 0; axis < 2; axis++) { /* as mirror_jitter.glsl has it */
+            const float jitter = 2.0f / sides[axis] - 2.0f * frame->mirror[1] / frame->screen[axis];
+            to[axis] = from[axis] * frame->mirror[1] + from[3] * frame->screen[2 + axis] * jitter;
+        }
+    }
+}
+
+/* The mirror's picture may be another sub-frame's. */
+void host_renderer_look_at_mirror(const host_renderer *r, const host_camera *camera, struct host_frame_gpu *frame)
+{
+    float *m = frame->mirror_from_relative;
+    frame->mirror[2] *= r->mirror_shows;
+    memcpy(m, r->mirror_clip, sizeof r->mirror_clip);
+    for (int axis = 0; axis < 3; axis++)
+        for (int row = 0; row < 4; row++)
+            m[12 + row] += (float)(camera->position_m[axis] - r->mirror_eye_m[axis]) * m[axis * 4 + row];
+}
+
+/* Two or four sub-frames after each other share the looks at the mirror, so that together they take all. */
+static void fill_sampling(const host_camera *camera, struct host_frame_gpu *frame)
+{
+    const uint32_t samples = camera->samples ? camera->samples : 1;
+    const uint32_t step = samples % 4 == 0 ? 4 : samples % 2 == 0 ? 2 : 1;
+    frame->sampling[0] = 1.0f / (float)samples;
+    frame->sampling[1] = (float)(camera->sample % step);
+    frame->sampling[2] = (float)step;
+}
+
 void host_renderer_fill_frame(const host_renderer *r, const host_target *target, const host_camera *camera,
                               const host_camera *previous, struct host_frame_gpu *frame)
 {
@@ -107,7 +144,7 @@ void host_renderer_fill_frame(const host_renderer *r, const host_target *target,
     fill_rays(camera, frame);
     frame->environment[0] = r->environment->rotation / 6.28318531f;
     host_skylight_frame(&r->skylight, camera->position_m, frame);
-    frame->sampling[0] = 1.0f / (float)(camera->samples ? camera->samples : 1);
+    fill_sampling(camera, frame);
     fill_irradiance(r->environment->sh, frame->irradiance);
     fill_ground(&r->ground, camera, frame);
     fill_mirror(r, camera, frame);

@@ -63,6 +63,10 @@ struct host_renderer {
     virga_ground_maps ground; /* cells 0: none */
     host_mirror mirror;       /* width 0: none */
     double mirror_m;          /* height of its plane */
+    bool mirror_drawn;        /* at least once */
+    float mirror_shows;       /* 1: it was drawn with the scene; 0: empty */
+    float mirror_clip[16];    /* its clip space from what is relative to mirror_eye_m, with its jitter */
+    double mirror_eye_m[3];   /* the camera it was drawn with */
     host_draw_haze draw_haze; /* draws over the mirror; NULL: none */
     void *haze_user;
     host_skylight skylight;
@@ -84,6 +88,13 @@ struct host_renderer {
 /* renderer_frame.c: the uniforms of a plate. */
 void host_renderer_fill_frame(const host_renderer *renderer, const host_target *target, const host_camera *camera,
                               const host_camera *previous, struct host_frame_gpu *frame);
+
+/* Remembers what the mirror is drawn with: the camera, and the uniforms filled for it. */
+void host_renderer_place_mirror(host_renderer *renderer, const host_camera *camera, const struct host_frame_gpu *frame);
+
+/* Uniforms of a plate that looks into the mirror as it was placed last. */
+void host_renderer_look_at_mirror(const host_renderer *renderer, const host_camera *camera,
+                                  struct host_frame_gpu *frame);
 
 /* renderer_pipelines.c: set layouts and the pipeline layout. */
 bool host_renderer_create_bindings(host_renderer *renderer, char *error, size_t error_size);

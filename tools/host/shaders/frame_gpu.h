@@ -21,6 +21,7 @@ typedef float host_mat4[16];
 #define HOST_LEVEL_Y        0.3    /* normals that rise less are too steep for water */
 #define HOST_WALL_MATERIALS 17     /* of virga_material */
 #define HOST_WALL_ROWS      17     /* VIRGA_WALL_ROWS */
+#define HOST_LOOKS          8      /* at what water mirrors, for a picture of one sample */
 #define HOST_MIRROR_FAR     1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
@@ -33,6 +34,7 @@ struct host_light_gpu {
 struct host_frame_gpu {
     HOST_MAT4 clip_from_relative;     /* relative: world axes, camera at the origin; with jitter */
     HOST_MAT4 previous_from_relative; /* clip a frame ago, without jitter, of a point relative to the camera then */
+    HOST_MAT4 mirror_from_relative;   /* clip of the mirror's picture, of a point of the mirrored world */
     HOST_VEC4 camera;                 /* world position */
     HOST_VEC4 moved;                  /* camera now minus camera a frame ago; w: number of lights */
     HOST_VEC4 screen;                 /* width, height, jitter x and y in pixels */
@@ -43,7 +45,8 @@ struct host_frame_gpu {
     HOST_VEC4 skylight_low;   /* low corner of the skylight volume relative to the camera, side of a voxel (m) */
     HOST_VEC4 skylight_scale; /* 1 / size of the volume; w: 1 / distance over which it fades out, 0 for never */
     HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
-    HOST_VEC4 sampling;       /* x: 1 / pictures that are averaged */
+    /* x: 1 / pictures that are averaged; y and z: first and step of the looks at what water mirrors, of HOST_LOOKS */
+    HOST_VEC4 sampling;
     /* low corner of the wet ground's window relative to the camera, y: height that its map counts from; w: 1 / side of
      * a cell, 0 for no ground */
     HOST_VEC4 ground_low;

@@ -1,11 +1,9 @@
 // mirror.glsl - what rough level water mirrors of the scene: the picture of the world turned upside down about one
 // plane, looked up where each of a few facets of the water sends the ray.
-#include "mirror_jitter.glsl"
-
 layout(set = 0, binding = 7) uniform sampler2D mirror_picture;
 layout(set = 0, binding = 9) uniform sampler2D mirror_near; // 1 / distance
 
-const int MIRROR_TAPS = 8;
+const int MIRROR_TAPS = HOST_LOOKS;
 const int MIRROR_ROW = 5, MIRROR_STRIDE = 3; // of look i, 5 + 3 i modulo 8: all different, and as many left as right
 const float MIRROR_SMOOTH_TEXELS = 0.6;      // the looks' standard deviation where water is a perfect mirror
 
@@ -13,8 +11,8 @@ const float MIRROR_SMOOTH_TEXELS = 0.6;      // the looks' standard deviation wh
 // last it shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
 vec2 mirror_at(vec3 point, out float trust)
 {
-    const vec4 clip = frame.clip_from_relative * vec4(point, 1.0);
-    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter();
+    const vec4 clip = frame.mirror_from_relative * vec4(point, 1.0);
+    const vec2 at = clip.xy / max(clip.w, 1e-3);
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
     return at * 0.5 + 0.5;
@@ -82,7 +80,7 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     const float smooth_texels = MIRROR_SMOOTH_TEXELS * sqrt(frame.sampling.x);
     vec4 sum = vec4(0.0);
     float whole = 0.0, mirrored = 0.0;
-    for (int i = 0; i < MIRROR_TAPS; i++) {
+    for (int i = int(frame.sampling.y); i < MIRROR_TAPS; i += int(frame.sampling.z)) {
         const vec2 look = mirror_look(i);
         const float u = 1.0 - exp(-0.5 * dot(look, look));
         const vec2 s = slope + 0.70710678 * alpha * (look.x * across + look.y * along);

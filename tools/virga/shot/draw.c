@@ -70,12 +70,27 @@ static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const to
     return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
 }
 
+/* Whether a layer that is smooth has its turn in a sub-frame: one in each group, each time at another place of the
+ * group, as jitter is a sequence of powers of two and three, in which every second or fourth are alike. A lens blurs
+ * each sub-frame in its own way, and needs them all. The sums have as many sub-frames as were drawn before this one. */
+static bool has_turn(const shot *s, const shot_layer *layer)
+{
+    const uint32_t share = host_accumulator_share(s->options.samples), sample = s->sums.samples;
+    if (!layer->layer->is_smooth || s->lens || shot_looks_through_lens(s))
+        return true;
+    return sample % share == sample / share % share;
+}
+
 /* Each into a picture of its own. */
 static bool draw_layers(shot *s, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
 {
     for (uint32_t i = 0; i < s->layer_count; i++) {
         if (!prepare_layer(s, cmd, i, at, error, error_size))
             return false;
+        if (!has_turn(s, &s->layers[i])) {
+            host_accumulator_skip(&s->sums, s->layers[i].output);
+            continue;
+        }
         host_target_begin_output(&s->target, cmd, s->layers[i].output);
         const bool drawn = draw_layer(s, cmd, &s->layers[i], s->layer_target, error, error_size);
         host_target_end_layer(&s->target, cmd);
@@ -216,6 +231,7 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     lens_point(s, sample, lens_m);
     place_cameras(s, close_s, part_s, shot_start, NULL, lens_m, &steady);
     place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
+    cameras.now.sample = sample;
     const virga_view steady_view = look_through(s, part_s, &steady);
     const virga_view jittered_view = look_through(s, part_s, &cameras);
     const tool_moment at = {.jittered = &jittered_view,
