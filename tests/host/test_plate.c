@@ -339,6 +339,7 @@ static void ground_below_things_is_in_their_shade(void **state)
     const float before[2] = {s->picture.color[under * 4], s->picture.color[beside * 4]};
     const double above = lamp_at(s, under, 0, 8, 0), aside = lamp_at(s, under, 3, 2, 0);
     s->cube.primitives[0].ground = false;
+    host_renderer_set_contact(s->renderer, true);
     assert_true(make_dry(s, s->dry) && draw(s, 1));
     const double left = (double)(s->picture.color[under * 4] / before[0]);
     printf("%.3f of the sky is left, expected %.3f\n", left, 1 - hidden_by_square());
@@ -346,6 +347,9 @@ static void ground_below_things_is_in_their_shade(void **state)
     assert_float_equal(s->picture.color[beside * 4], before[1], 1e-6);
     assert_true(lamp_at(s, under, 0, 8, 0) < 0.01 * above);
     assert_true(lamp_at(s, under, 3, 2, 0) > 0.95 * aside);
+    host_renderer_set_contact(s->renderer, false);
+    assert_true(draw(s, 1));
+    assert_float_equal(s->picture.color[under * 4], before[0], 1e-6);
     host_renderer_set_ground(s->renderer, NULL);
     assert_true(draw(s, 1));
     assert_float_equal(s->picture.color[under * 4], before[0], 1e-6);

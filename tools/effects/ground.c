@@ -50,6 +50,8 @@ static const scene_row ground_rows[] = {
            "rain of that depth has gathered in hollows before the first frame"),
     WHOLE(scene_ground, contact_droplets, 0, 64, "12", LIVE,
           "droplets at most that a wheel throws out of a cell in a tick; 0: none"),
+    SWITCH(scene_ground, contact_shade, "true", LIVE,
+           "wet ground is darker under cars and at the foot of what stands on it"),
     LIST(scene_ground, materials, material_count, &ground_rule_group, 0, 256, "[]",
          "rules: which names of meshes or their materials are of what"),
     OPTIONAL_GROUP(scene_ground, material_map, &material_map_group, RESTARTS,
@@ -373,6 +375,7 @@ static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camer
         return true;
     virga_ground_maps_get(g->ground, &maps);
     host_renderer_set_ground(s->renderer, &maps);
+    host_renderer_set_contact(s->renderer, scene_ground_of(s->scene)->contact_shade);
     return true;
 }
 

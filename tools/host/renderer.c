@@ -160,6 +160,11 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
     return true;
 }
 
+void host_renderer_set_contact(host_renderer *r, bool on)
+{
+    r->has_contact = on;
+}
+
 void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
 {
     const bool other = maps && maps->wetness != r->ground.wetness;

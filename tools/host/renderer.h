@@ -31,6 +31,10 @@ void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights
  * change. Their position in the world may change every frame. */
 void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *maps);
 
+/* Whether wet ground is darker where things stand on it. A map of the 20 m around the camera is drawn for that, where
+ * it has moved by some metres. Off at first. */
+void host_renderer_set_contact(host_renderer *renderer, bool on);
+
 /* Sets how wet walls are, for the next plates; NULL: dry. A map of what shelters them is drawn where the camera has
  * moved by some metres or the rain has turned. The device must be idle in the first call with walls. */
 bool host_renderer_set_walls(host_renderer *renderer, const virga_walls *walls, char *error, size_t error_size);

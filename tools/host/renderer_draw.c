@@ -273,7 +273,8 @@ static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_cam
                                                  [HOST_CONTACT_OVER] = DRAW_NO_GROUND};
     float low[3], high[3], map_from_world[16];
     find_bounds(r, low, high);
-    if (!r->ground.cells || !host_contact_place(&r->contact, camera, (double)low[1], (double)high[1]))
+    if (!r->ground.cells || !r->has_contact ||
+        !host_contact_place(&r->contact, camera, (double)low[1], (double)high[1]))
         return;
     host_label_begin(r->device, cmd, "contact");
     for (int i = 0; i < HOST_CONTACT_MAPS; i++) {

@@ -1,5 +1,5 @@
-// fused.comp - a sum of four components, as the test of its cost wants it: SUM 0: of a product; 1: of a product that may
-// not be fused; 2: of what is no product.
+// fused.comp - a sum of four components, as the test of its cost wants it: SUM 0: of a product; 1: of a product that
+// may not be fused; 2: of what is no product.
 #version 460
 
 layout(local_size_x = 8) in;
