@@ -27,7 +27,7 @@ static void set_up(void)
         s.f.particles[i].velocity[0] = 0.5f;
     surface_m = water_reference_radius(&s.f, center, 1.2 * RADIUS);
     shot_aim(&s, eye, center);
-    s.frame_interval_s = FRAME_S;
+    s.frame_interval_s = s.open_shutter_s = FRAME_S;
 }
 
 static void draw(virga_water_data what)
