@@ -105,8 +105,9 @@ const float CONTACT_M[CONTACT_LOOKS] = float[](0.03, 0.07, 0.13, 0.22, 0.36, 0.5
 const float CONTACT_SOFT_M = 0.02, CONTACT_SOFT = 0.12; // edges of shadows: of lamps of 12 cm a metre away
 
 const float CONTACT_LEAST = 0.002; // light that is less is left as it is
+const float CONTACT_OPEN = 0.93;   // where more of the sky is left, shadows of lamps are not looked for
 
-bool near_things = false; // of this pixel
+float near_things = 0.0; // of this pixel: how far they keep lamps off it
 
 float lamp_power(int i)
 {
@@ -149,8 +150,8 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
         if (n_l > 0.0 && reach > 0.0) {
             vec3 brdf = albedo / PI + specular_lobe(f0, roughness, n_l, n_v, n, v, l);
 #ifdef WET
-            if (near_things && n_l * reach * lamp_power(i) > CONTACT_LEAST * distance2)
-                reach *= lamp_left(l);
+            if (near_things > 0.0 && n_l * reach * lamp_power(i) > CONTACT_LEAST * distance2)
+                reach *= mix(1.0, lamp_left(l), near_things);
 #endif
             sum += frame.lights[i].intensity.rgb * brdf * (n_l * reach / distance2);
         }
@@ -168,7 +169,7 @@ float contact_shade(vec3 n)
         return 1.0;
     const vec2 found = textureLod(contact_map, at, 0.0).xy;
     const float same = abs(in_relative.y - frame.contact.y - found.y) < 0.3 ? known : 0.0;
-    near_things = same > 0.0 && found.x < 0.99;
+    near_things = same * (1.0 - smoothstep(CONTACT_OPEN - 0.1, CONTACT_OPEN, found.x));
     return mix(1.0, found.x, same);
 }
 
