@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Somebody else's programs: the library is built as a release, installed below a temporary prefix, and used from outside
-# the tree by C and by C++, through pkg-config and through CMake; then used as a Meson subproject. No device is needed.
+# Somebody else's programs: a Meson project has the library as a subproject, builds it as a release and installs it
+# below a temporary prefix. Then it is used from there, outside the tree, by C and by C++, through pkg-config and
+# through CMake. No device is needed.
 # Usage: consumer.sh SOURCE_ROOT BUILD_ROOT "CC" "CXX" VERSION, where BUILD_ROOT has the compiled shaders
 set -eu
 source=$(cd "$1" && pwd) build=$2 cc=$3 cxx=$4 version=$5
@@ -59,17 +60,33 @@ int main(void)
 SOURCE
 cp "$work/consumer.c" "$work/consumer.cpp"
 
-# ---- installed
+# ---- as a subproject of a release, which also installs the library: one build serves all that follows
 "$source/tests/gpu/compiled_shader.sh" "$build" --native-file >"$work/native.ini"
-quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib \
-    --buildtype release -Db_ndebug=true -Doptimization=0 \
-    -Dtools=disabled -Dtests=disabled
-quietly ninja -j2 -C "$work/build"
-quietly meson install -C "$work/build" --no-rebuild
+mkdir -p "$work/host/subprojects"
+ln -s "$source" "$work/host/subprojects/virga"
+cp "$work/consumer.c" "$work/host/"
+cat >"$work/host/meson.build" <<'SOURCE'
+project('host', 'c', version: '1', default_options: ['c_std=c11', 'warning_level=3'])
+virga = subproject('virga')
+executable('consumer', 'consumer.c', dependencies: dependency('virga'))
+SOURCE
+quietly meson setup "$work/host/build" "$work/host" --native-file "$work/native.ini" --wrap-mode nofallback \
+    --prefix "$work/prefix" --libdir lib --buildtype release -Db_ndebug=true -Doptimization=0
+# The program and its libraries are not a host's business.
+if grep -qiE "dependency (openexr|assimp|jansson|cmocka|yaml-0.1) found" "$work/log"; then
+    cat "$work/log"
+    echo "as a subproject it looks for what only the program and the tests need"
+    exit 1
+fi
+quietly ninja -j2 -C "$work/host/build"
+expect "$("$work/host/build/consumer")" "$version 6.49" "consumer of a subproject"
+
+# ---- installed
+quietly meson install -C "$work/host/build" --no-rebuild
 export PKG_CONFIG_PATH="$work/prefix/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
 expect "$(pkg-config --modversion virga)" "$version" "version of the pkg-config file"
 flags=$(pkg-config --cflags --libs virga)
-case $flags in *"$source"* | *"$work/build"*) echo "pkg-config names the tree: $flags"; exit 1 ;; esac
+case $flags in *"$source"* | *"$work/host"*) echo "pkg-config names the tree: $flags"; exit 1 ;; esac
 mkdir "$work/outside"
 cd "$work/outside"
 warnings="-Wall -Wextra -Wpedantic -Werror"
@@ -122,25 +139,7 @@ stray=$(cd "$work/prefix" && find . \( -type f -o -type l \) \
     ! -path './lib/libvirga.so*' ! -path './lib/pkgconfig/virga.pc' ! -path './lib/cmake/virga/virgaConfig*.cmake')
 [ -z "$stray" ] || { echo "installed what nobody asked for: $stray"; exit 1; }
 
-# ---- as a subproject
-mkdir -p "$work/host/subprojects"
-ln -s "$source" "$work/host/subprojects/virga"
-cp "$work/consumer.c" "$work/host/"
-cat >"$work/host/meson.build" <<'SOURCE'
-project('host', 'c', version: '1', default_options: ['c_std=c11', 'warning_level=3'])
-virga = subproject('virga')
-executable('consumer', 'consumer.c', dependencies: dependency('virga'))
-SOURCE
-quietly meson setup "$work/host/build" "$work/host" --native-file "$work/native.ini" --wrap-mode nofallback \
-    --buildtype plain
-# The program and its libraries are not a host's business.
-if grep -qiE "dependency (openexr|assimp|jansson|cmocka|yaml-0.1) found" "$work/log"; then
-    cat "$work/log"
-    echo "as a subproject it looks for what only the program and the tests need"
-    exit 1
-fi
-quietly ninja -j2 -C "$work/host/build"
-expect "$("$work/host/build/consumer")" "$version 6.49" "consumer of a subproject"
+# ---- without CMake
 # CMake is nothing that a host of Meson, or who installs for one, must have: its package is left out then.
 mkdir "$work/tools"
 # ccache's folder is left out: its links would find themselves in place of the compiler.
