@@ -74,6 +74,11 @@ void host_contact_destroy(host_device *device, host_contact *c)
     memset(c, 0, sizeof *c);
 }
 
+static bool differ(double a, double b)
+{
+    return a < b || a > b;
+}
+
 bool host_contact_place(host_contact *c, const host_camera *camera, double low_m, double high_m)
 {
     const host_contact before = *c;
@@ -86,9 +91,10 @@ bool host_contact_place(host_contact *c, const host_camera *camera, double low_m
     c->low_m[1] = low_m - 0.1;
     c->height_m = fmax(high_m - low_m + 0.2, 1);
     c->level_m = floor(camera->position_m[1] - EYES_M + 0.5);
-    return !c->ready || memcmp(before.low_m, c->low_m, sizeof c->low_m) != 0 ||
-           memcmp(&before.height_m, &c->height_m, sizeof c->height_m) != 0 ||
-           memcmp(&before.level_m, &c->level_m, sizeof c->level_m) != 0;
+    bool moved = differ(before.height_m, c->height_m) || differ(before.level_m, c->level_m);
+    for (int axis = 0; axis < 3; axis++)
+        moved = moved || differ(before.low_m[axis], c->low_m[axis]);
+    return !c->ready || moved;
 }
 
 /* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things
