@@ -295,6 +295,20 @@ static double hidden_by_square(void)
     return 4 * (2 * slant * atan(slant)) / (2 * 3.14159265358979);
 }
 
+/* Maps of ground on all of the plane that is seen. */
+static virga_ground_maps maps_of(const host_image *wet, const host_image *spots, const host_image *ripples)
+{
+    return (virga_ground_maps){.wetness = wet->view,
+                               .spots = spots->view,
+                               .ripples = ripples->view,
+                               .ripple_texels = 16,
+                               .ripple_texel_m = 1,
+                               .cells = CELLS,
+                               .cell_m = 0.5f,
+                               .low_m = {-16, -16},
+                               .high_m = {16, 16}};
+}
+
 /* Ground that is dry, and may become wet. */
 static bool make_dry(scene *s, host_image images[3])
 {
@@ -302,15 +316,7 @@ static bool make_dry(scene *s, host_image images[3])
     const bool made = make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, none, 8, &images[0]) &&
                       make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &images[1]) &&
                       make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &images[2]);
-    const virga_ground_maps maps = {.wetness = images[0].view,
-                                    .spots = images[1].view,
-                                    .ripples = images[2].view,
-                                    .ripple_texels = 16,
-                                    .ripple_texel_m = 1,
-                                    .cells = CELLS,
-                                    .cell_m = 0.5f,
-                                    .low_m = {-16, -16},
-                                    .high_m = {16, 16}};
+    const virga_ground_maps maps = maps_of(&images[0], &images[1], &images[2]);
     host_renderer_set_ground(s->renderer, made ? &maps : NULL);
     return made;
 }
@@ -461,15 +467,7 @@ static bool make_water(scene *s, puddle *p)
     if (!make_wet(s, 0, &p->wet) || !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &p->spots) ||
         !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &p->ripples))
         return false;
-    p->maps = (virga_ground_maps){.wetness = p->wet.view,
-                                  .spots = p->spots.view,
-                                  .ripples = p->ripples.view,
-                                  .ripple_texels = 16,
-                                  .ripple_texel_m = 1,
-                                  .cells = CELLS,
-                                  .cell_m = 0.5f,
-                                  .low_m = {-16, -16},
-                                  .high_m = {16, 16}};
+    p->maps = maps_of(&p->wet, &p->spots, &p->ripples);
     host_renderer_set_ground(s->renderer, &p->maps);
     return true;
 }

@@ -117,10 +117,9 @@ typedef enum virga_water_kernel {
      * water. On particles out of order by 0.115 spacings, heights of the surface have an RMS of 0.075 spacings with
      * balls and 0.078 with ellipsoids; 0.072 if centers stay in the mean, but the surface is 0.3 spacings too low;
      * 0.053 with neighbours within two radii, 0.2 too low; and 0.042 with both, 0.9 too low. Here neighbours are those
-     * within one radius, as the grid has them. With a
-     * larger kernel_spacings water is flatter and keeps its volume: around its own large shape, such a surface has an
-     * RMS of 0.052 spacings (balls) and 0.069 (ellipsoids) with a radius of 2 spacings, and of 0.033 and 0.036 with 3.
-     * On software Vulkan a step takes 1.6 to 2.7 times as long. */
+     * within one radius, as the grid has them. With a larger kernel_spacings water is flatter and keeps its volume:
+     * around its own large shape, such a surface has an RMS of 0.052 spacings (balls) and 0.069 (ellipsoids) with a
+     * radius of 2 spacings, and of 0.033 and 0.036 with 3. On software Vulkan a step takes 1.6 to 2.7 times as long. */
     VIRGA_WATER_KERNEL_ANISOTROPIC = 1,
 } virga_water_kernel;
 
