@@ -30,7 +30,8 @@ virga_bound particles_bound(VkBuffer particles, VkDeviceSize offset, uint32_t co
 static void reset(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
 {
     virga_particle_grid_gpu empty = {.low = {VIRGA_GRID_COORDINATE, VIRGA_GRID_COORDINATE, VIRGA_GRID_COORDINATE},
-                                     .high = {-VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE}};
+                                     .high = {-VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE},
+                                     .fading_groups = {0, 1, 1}};
     context->vk.CmdUpdateBuffer(cmd, grid->state->buffer, 0, sizeof empty, &empty);
     context->vk.CmdFillBuffer(cmd, grid->cell_starts->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, grid->kept->buffer, 0, VK_WHOLE_SIZE, 0);

@@ -38,6 +38,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, volume_m3, 0, 1000),
     SETTING(FLOAT, kernel_spacings, 1, 4, 2),
     SETTING(FLOAT, level, 0.05, 0.95, 0.5),
+    SETTING(ENUM, fading, 0, VIRGA_WATER_FADING_VOLUME, VIRGA_WATER_FADING_COVERAGE),
     SETTING(ENUM, kernel, 0, VIRGA_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC),
     SETTING(FLOAT, smoothing, 0, 1, 0.9),
     SETTING(FLOAT, stretch, 1, 4, 2),
@@ -314,17 +315,18 @@ static const virga_binding_kind grid_bindings[] = {
 /* clang-format on */
 
 static const virga_binding_kind kernel_bindings[] = {
-    STEP_BINDINGS,               /* 0 to 4 */
-    BUFFER(grid.sorted),         /* 5 */
-    BUFFER(grid.sorted_indices), /* 6 */
-    BUFFER(cell_marks),          /* 7 */
-    BUFFER(densities),           /* 8 */
-    BUFFER(shifts),              /* 9 */
-    BUFFER(selection),           /* 10 */
-    BUFFER(shapes),              /* 11 */
-    BUFFER(centers),             /* 12 */
-    TEXEL_BUFFER(grid.sorted),   /* 13 */
-    TEXEL_BUFFER(shifts),        /* 14 */
+    STEP_BINDINGS,                  /* 0 to 4 */
+    BUFFER(grid.sorted),            /* 5 */
+    BUFFER(grid.sorted_indices),    /* 6 */
+    BUFFER(cell_marks),             /* 7 */
+    BUFFER(densities),              /* 8 */
+    BUFFER(shifts),                 /* 9 */
+    BUFFER(selection),              /* 10 */
+    BUFFER(shapes),                 /* 11 */
+    BUFFER(centers),                /* 12 */
+    TEXEL_BUFFER(grid.sorted),      /* 13 */
+    TEXEL_BUFFER(shifts),           /* 14 */
+    BUFFER(grid.sorted_velocities), /* 15 */
 };
 
 static const virga_binding_kind bindings[] = {
@@ -397,6 +399,8 @@ static const virga_effect_layout layouts[] = {
 #define KERNEL(pass, row) PASS_AT(surface, pass, pass, .layout = row, .forms = WATER_KERNELS)
 static const virga_effect_pass passes[] = {
     PARTICLE_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
+    PASS_AT(surface, cover, cover, .layout = WATER_LAYOUT_KERNELS),
+    PASS_AT(surface, relative, relative, .layout = WATER_LAYOUT_KERNELS),
     KERNEL(density, WATER_LAYOUT_KERNELS),
     KERNEL(kernel, WATER_LAYOUT_KERNELS),
     SURFACE(block_mark),

@@ -120,7 +120,8 @@ struct virga_water {
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
     virga_bindings *kernel_bindings, *bindings;
     virga_pipeline *density[WATER_KERNELS], *kernel[WATER_KERNELS], *field[WATER_KERNELS], *surfel_write[WATER_KERNELS];
-    virga_pipeline *block_mark, *block_scan, *block_compact, *surfel_count, *surfel_scan, *edge_write;
+    virga_pipeline *cover, *relative, *block_mark, *block_scan, *block_compact, *surfel_count, *surfel_scan,
+        *edge_write;
     virga_water_stats stats;
 };
 

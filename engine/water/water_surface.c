@@ -160,6 +160,10 @@ static void over_cells(const virga_water *water, VkCommandBuffer cmd, const virg
 
 static void record_densities(virga_water *water, VkCommandBuffer cmd)
 {
+    if (water->settings.fading == VIRGA_WATER_FADING_COVERAGE) {
+        over_cells(water, cmd, water->cover, offsetof(virga_particle_grid_gpu, fading_groups));
+        over_cells(water, cmd, water->relative, offsetof(virga_particle_grid_gpu, fading_groups));
+    }
     over_cells(water, cmd, water->density[water->settings.kernel], offsetof(virga_particle_grid_gpu, sorted_groups));
 }
 

@@ -1,7 +1,7 @@
 // copy.comp - copies positions, shares and velocities into the sorted lists, so that neighbours lie side by side in
 // memory.
 // One invocation per sorted particle. Reads: sorted_indices, particles, tickets, kept. Writes: sorted,
-// sorted_velocities.
+// sorted_velocities; the grid's state, if a particle is not whole.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -23,6 +23,9 @@ void main()
     const uint particle = sorted_indices[i], factor = kept[tickets[particle].x];
     const float share = min(particles[particle].share, 1.0) * (factor > 0u ? uintBitsToFloat(factor) : 1.0);
     const vec3 velocity = to_vec(particles[particle].velocity);
-    sorted_velocities[i] = vec4(all(lessThan(abs(velocity), vec3(1e4))) ? velocity : vec3(0.0), 0.0);
-    sorted[i] = vec4(to_vec(particles[particle].position), share);
+    sorted_velocities[i] = vec4(all(lessThan(abs(velocity), vec3(1e4))) ? velocity : vec3(0.0), 1.0);
+    // The lowest bits are free: see water/packed_share.glsl.
+    sorted[i] = vec4(to_vec(particles[particle].position), uintBitsToFloat(floatBitsToUint(share) & ~0xffu));
+    if (particles[particle].share < 1.0 && grid.fading_groups[0] == 0u)
+        atomicMax(grid.fading_groups[0], grid.sorted_groups[0]);
 }

@@ -13,7 +13,9 @@ typedef struct virga_particle_gpu virga_particle_gpu;
 struct virga_particle_gpu {
     float position[3]; /* m, relative to virga_water_step_info.origin_m */
     /* [0; 1] part of its volume that counts: lets particles appear and vanish without a jump, e.g. over a tenth of a
-     * second. Spray is drawn in full size with so much of its coverage, and is not handed over below 1. */
+     * second. Among others, a particle makes the surface higher by its share. Where all particles of a body of water
+     * have a share, its surface stays where it is and covers so much of what is behind it: see virga_water_fading.
+     * Spray is drawn in full size with so much of its coverage, and is not handed over below 1. */
     float share;
     float velocity[3]; /* m/s */
     uint id;           /* the same in all frames; its random numbers depend on it */

@@ -45,11 +45,12 @@ struct virga_particle_grid_gpu {
     uint cell_groups[3];   /* an invocation for each cell */
     uint word_groups[3];   /* an invocation for every 32 cells */
     uint sorted_groups[3]; /* an invocation for each sorted particle */
+    uint fading_groups[3]; /* the same if there is a particle with a share below 1; else 0 workgroups */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_particle_step_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_particle_grid_gpu, 156);
+VIRGA_ASSERT_SIZE(virga_particle_grid_gpu, 168);
 #undef uint
 #endif
 

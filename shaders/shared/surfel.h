@@ -14,7 +14,7 @@ struct virga_surfel_gpu {
     float position[3]; /* m, relative to virga_water_step_info.origin_m */
     uint normal;       /* out of the water; octahedral, two signed 16-bit integers, see shaders/water/octahedron.glsl */
     float velocity[3]; /* m/s */
-    float radius;      /* m. Of a droplet: the lowest eight bits are 255 x (1 - the share of its particle) */
+    float radius;      /* m. The lowest eight bits are 255 x (1 - the share of the water around it) */
 };
 
 #ifndef VIRGA_GLSL

@@ -25,6 +25,9 @@ typedef struct virga_water_piece_gpu virga_water_piece_gpu;
 #define VIRGA_WATER_UNSHIFT   1.35
 #define VIRGA_WATER_MAX_SHIFT 0.3
 
+/* Up to this distance a neighbour counts in full for the cover of a particle, in h: see surface/cover.comp. */
+#define VIRGA_WATER_COVER_NEAR 0.6
+
 #define VIRGA_WATER_PIECES          32   /* droplets of a particle at most */
 #define VIRGA_WATER_SPRAY_REACH     4    /* distance of a droplet from its particle at most, in spacings */
 #define VIRGA_WATER_DROPLET_SURFELS 16   /* surfels of a droplet */

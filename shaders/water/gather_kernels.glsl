@@ -25,7 +25,9 @@ void gather(uint cell)
                 kernel.products = vec3(first.w, second.xy);
             }
 #ifdef GATHER_VELOCITIES
-            kernel.velocity = uintBitsToFloat(velocity_texel(i)).xyz;
+            const vec4 moving = uintBitsToFloat(velocity_texel(i));
+            kernel.velocity = moving.xyz;
+            kernel.cover = moving.w;
 #endif
             visit(kernel);
         }

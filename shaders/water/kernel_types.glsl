@@ -6,6 +6,7 @@ struct Kernel {
     vec3 squares; // its shape: elements xx, yy, zz of a matrix; the unit matrix is the ball of radius h
     vec3 products; // xy, xz, yz
     vec3 velocity;
+    float cover; // see surface/cover.comp
 };
 
 // The shape times a vector.

@@ -97,7 +97,7 @@ static void record_sphere(shot *of, VkCommandBuffer cmd)
                     const double p[3] = {at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]};
                     virga_surfel_gpu *surfel = &surfels[count++];
                     *surfel = (virga_surfel_gpu){.position = {(float)p[0], (float)p[1], (float)p[2]},
-                                                 .radius = (float)(step * VIRGA_WATER_SURFEL_STEPS)};
+                                                 .radius = water_whole_radius(step * VIRGA_WATER_SURFEL_STEPS)};
                     pack_normal(p, surfel);
                 }
             }

@@ -8,7 +8,9 @@
 #include "particle_fade.h"
 
 enum { WIDTH = 160, HEIGHT = 90, FRAMES = 48, POOL = 24, DEEP = 6, SPRAY = 80 };
-enum { DROPS = 60, GONE = 48, FILE_MOST = POOL * POOL * DEEP + DROPS, MANY_FILES = 1000 };
+enum { DROPS = 60, GONE = 48, MANY_FILES = 1000 };
+enum { BALLS = 6, BALL_SIDE = 5, BALL_MOST = BALL_SIDE * BALL_SIDE * BALL_SIDE };
+enum { FILE_MOST = POOL * POOL * DEEP + DROPS + BALLS * BALL_MOST };
 
 #define FRAME_S    (1.0 / 60)
 #define SPACING_M  0.02
@@ -78,8 +80,8 @@ static void place_wave(double time_s)
 
 /* ---- files, in which particles appear and vanish */
 
-/* A file: a pool at rest, of whose uppermost particles some are there for half a second, and drops that fly for half a
- * second. */
+/* A file: a pool at rest, and what is there for half a second: some of its uppermost particles and drops that fly, or
+ * balls of water, some in the air and some partly in the pool. */
 typedef struct file {
     particles rows;
     float position[FILE_MOST][3], velocity[FILE_MOST][3];
@@ -97,6 +99,8 @@ static void put(file *to, uint32_t id, const double position[3], const double ve
     to->id[row] = id;
 }
 
+static bool of_balls; /* what comes and goes are bodies of water */
+
 static bool is_there(uint32_t what, double time_s)
 {
     uint32_t hash = virga_hash1(what + 1000);
@@ -110,7 +114,7 @@ static void put_pool(file *to, double time_s)
     for (uint32_t i = 0; i < POOL * POOL * DEEP; i++) {
         double at[3] = {0, SPACING_M * (i / POOL / POOL), SPACING_M * (i / POOL % POOL - 0.5 * POOL)};
         at[0] = SPACING_M * (i % POOL - 0.5 * POOL + water_random(&hash, -0.1, 0.1));
-        if (i + POOL * POOL < POOL * POOL * DEEP || virga_hash1(i) % GONE || is_there(i, time_s))
+        if (of_balls || i + POOL * POOL < POOL * POOL * DEEP || virga_hash1(i) % GONE || is_there(i, time_s))
             put(to, i, at, (const double[3]){0});
     }
 }
@@ -135,6 +139,26 @@ typedef struct pair_of_files {
     particle_pair pair;
 } pair_of_files;
 
+static void put_balls(file *to, double time_s)
+{
+    uint32_t hash = 21;
+    for (uint32_t ball = 0; ball < BALLS; ball++) {
+        double center[3];
+        for (int axis = 0; axis < 3; axis++)
+            center[axis] = water_random(&hash, axis == 1 ? 0.1 : -0.2, axis == 1 ? 0.4 : 0.2);
+        for (uint32_t i = 0; i < BALL_MOST && is_there(ball, time_s); i++) {
+            double at[3], r2 = 0;
+            for (int axis = 0; axis < 3; axis++) {
+                const int step = (int)(i / (axis == 0 ? 1 : axis == 1 ? BALL_SIDE : BALL_SIDE * BALL_SIDE)) % BALL_SIDE;
+                at[axis] = center[axis] + SPACING_M * (step - BALL_SIDE / 2);
+                r2 += pow(step - BALL_SIDE / 2, 2);
+            }
+            if (r2 <= 5)
+                put(to, POOL * POOL * DEEP + DROPS + ball * BALL_MOST + i, at, (const double[3]){0});
+        }
+    }
+}
+
 static int frames_each; /* from a file to the next one */
 static double fade_s;   /* 0: what is not in a file is not there until the next one */
 
@@ -143,7 +167,7 @@ static void make_file(file *to, uint32_t number)
     const double time_s = number * frames_each * FRAME_S;
     to->rows = (particles){0, to->position, to->velocity, to->id, NULL};
     put_pool(to, time_s);
-    put_drops(to, time_s);
+    (of_balls ? put_balls : put_drops)(to, time_s);
 }
 
 static void open_pair(pair_of_files *two, int64_t number)
@@ -308,12 +332,22 @@ static void particles_appear_and_vanish_by_degrees_with_a_file_for_each_frame(vo
     files_fade(1);
 }
 
+/* All of a body of water, of which no particle stays. */
+static void bodies_of_water_appear_and_vanish_by_degrees(void **state)
+{
+    (void)state;
+    of_balls = true;
+    files_fade(1);
+    of_balls = false;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_pops_in_48_frames),
         cmocka_unit_test(particles_appear_and_vanish_by_degrees_with_files_of_every_fourth_frame),
         cmocka_unit_test(particles_appear_and_vanish_by_degrees_with_a_file_for_each_frame),
+        cmocka_unit_test(bodies_of_water_appear_and_vanish_by_degrees),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

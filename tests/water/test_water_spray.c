@@ -177,12 +177,13 @@ static void droplets_share_the_volume_of_their_particle(void **state)
         const virga_spray_gpu *droplet = &f.droplets[at];
         const uint32_t particle = (uint32_t)(droplet->velocity[0] / 0.2f + 0.5f), pieces = pieces_at(0.2 * particle);
         const double share = particle == 3 ? 0.5 : 1, r = cbrt(3 * share / (4 * M_PI * pieces)) * 0.02;
-        assert_float_equal((double)droplet->radius, r, 2e-7 * 0.02 + 1e-6 * r);
+        /* Shares below 1 are known to 1/255. */
+        assert_float_equal((double)droplet->radius, r, 2e-7 * 0.02 + (share < 1 ? 2e-3 : 1e-6) * r);
         REQUIRE(distance(droplet->position, f.particles[particle].position) <=
                 (pieces > 1 ? 1.0001 * 0.02 * (double)f.settings.spray_pattern : 1e-7));
         volume += 4 * M_PI / 3 * pow((double)droplet->radius, 3);
     }
-    assert_float_equal(volume / volume_m3(), 23.5, 1e-4);
+    assert_float_equal(volume / volume_m3(), 23.5, 3e-3);
     water_fixture_close(&f);
 }
 

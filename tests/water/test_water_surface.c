@@ -23,7 +23,7 @@ static void put_water(void)
             f.particles[i].velocity[axis] = (float)(axis + 1);
 }
 
-/* For the whole range of the kernel's n. */
+/* For the whole range of the kernel's n, and both meanings of shares. */
 static void densities_are_those_of_double_precision(void **state)
 {
     (void)state;
@@ -31,15 +31,18 @@ static void densities_are_those_of_double_precision(void **state)
     def.max_cells = 131072; /* cells are as wide as kernels */
     water_fixture_open_with(&f, &def, false);
     put_water();
-    for (int n = 1; n <= 4; n++) {
-        f.settings.kernel_spacings = (float)n;
+    for (int n = 1; n <= 8; n++) {
+        f.settings.kernel_spacings = (float)(1 + (n - 1) % 4);
+        f.settings.fading = n <= 4 ? VIRGA_WATER_FADING_COVERAGE : VIRGA_WATER_FADING_VOLUME;
         water_fixture_step(&f);
         for (uint32_t i = 0; i < f.count; i++) {
             const double at[3] = {(double)f.particles[i].position[0], (double)f.particles[i].position[1],
                                   (double)f.particles[i].position[2]};
             const double expected = water_reference(&f, at, NULL);
-            if (fabs((double)f.densities[i] - expected) > 2e-5)
-                fail_msg("n = %d, particle %u: %.7f, expected %.7f", n, i, (double)f.densities[i], expected);
+            /* Shares of particles that are not whole are off by 1/32,768 of themselves. */
+            if (fabs((double)f.densities[i] - expected) > 2e-5 + expected / 32768)
+                fail_msg("n = %g, fading %d, particle %u: %.7f, expected %.7f", (double)f.settings.kernel_spacings,
+                         f.settings.fading, i, (double)f.densities[i], expected);
         }
     }
     water_fixture_close(&f);
@@ -73,6 +76,50 @@ static void surfels_lie_on_the_surface_with_its_normal(void **state)
     water_fixture_close(&f);
 }
 
+/* The mean cover of the particles around a point, with the weights of their densities. */
+static double mean_cover(const double at[3])
+{
+    double sum = 0, covers = 0;
+    for (uint32_t i = 0; i < f.count; i++) {
+        double r2 = 0;
+        for (int axis = 0; axis < 3; axis++)
+            r2 += pow(at[axis] - (double)f.particles[i].position[axis], 2);
+        const double weight = f.shares[i] * pow(fmax(1 - r2 / pow(water_h(&f), 2), 0), 3);
+        sum += weight;
+        covers += weight * f.covers[i];
+    }
+    return covers / sum;
+}
+
+/* Of a ball that fades, particles that fade among others, and what is whole. The share is in the lowest eight bits of
+ * the radius. The cover is that before the last step of Newton's method, which moves the surfel by a little. */
+static void surfels_have_the_share_of_the_water_around_them(void **state)
+{
+    (void)state;
+    const double center[3] = {-0.2, 0.35, 0.4};
+    double worst = 0, least = 1;
+    uint32_t hash = 4;
+    water_fixture_open(&f);
+    put_water();
+    for (uint32_t i = 0; i < f.count; i += 7)
+        f.particles[i].share = (float)water_random(&hash, 0.1, 1);
+    water_fixture_ball(&f, center, 0.07, 0.019);
+    for (uint32_t i = f.count - 100; i < f.count; i++)
+        f.particles[i].share = 0.3f;
+    water_fixture_step(&f);
+    for (uint32_t i = 0; i < f.stats.surfels; i++) {
+        const float *p = f.surfels[i].position;
+        const double at[3] = {(double)p[0], (double)p[1], (double)p[2]}, expected = mean_cover(at);
+        uint32_t bits;
+        memcpy(&bits, &f.surfels[i].radius, sizeof bits);
+        worst = fmax(worst, fabs(1 - (bits & 0xff) / 255.0 - expected));
+        least = fmin(least, expected);
+    }
+    printf("shares from %.3f to 1 are off by up to %.4f\n", least, worst);
+    REQUIRE(least < 0.31 && worst < 0.02);
+    water_fixture_close(&f);
+}
+
 /* The density on the whole grid, also far from the water. It is 0 where no particle is within h. */
 static void fill_grid(water_grid *grid)
 {
@@ -81,6 +128,7 @@ static void fill_grid(water_grid *grid)
     const double h = water_h(&f);
     *grid = (water_grid){.low = {-45, -25, 0}, .sizes = {X, Y, Z}, .step = h / VIRGA_WATER_SIDE, .field = field};
     memset(field, 0, sizeof field);
+    water_fixture_shares(&f);
     for (uint32_t p = 0; p < f.count; p++) {
         int first[3], last[3];
         for (int axis = 0; axis < 3; axis++) {
@@ -270,6 +318,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(densities_are_those_of_double_precision),
         cmocka_unit_test(surfels_lie_on_the_surface_with_its_normal),
+        cmocka_unit_test(surfels_have_the_share_of_the_water_around_them),
         cmocka_unit_test(positions_and_normals_are_those_of_double_precision),
         cmocka_unit_test(every_edge_that_the_surface_crosses_has_a_surfel),
         cmocka_unit_test(water_that_is_compressed_has_its_surface),

@@ -19,6 +19,7 @@ typedef struct water_fixture {
     host_buffer particle_buffer, download;
     virga_particle_gpu *particles; /* of the next step */
     uint32_t count;
+    double *covers, *shares; /* as of the newest water_fixture_shares */
     double origin_m[3], time_s;
     VkBuffer bodies; /* (optional) of the next step */
     bool sub_frame;
@@ -74,6 +75,11 @@ static inline void water_fixture_open_with(water_fixture *f, const virga_water_d
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download,
                                error, size));
     f->particles = f->particle_buffer.mapped;
+    f->covers = calloc(def->max_particles, sizeof *f->covers);
+    f->shares = calloc(def->max_particles, sizeof *f->shares);
+    REQUIRE(f->covers && f->shares);
+    for (uint32_t i = 0; i < def->max_particles; i++)
+        f->covers[i] = f->shares[i] = 1;
 }
 
 static inline void water_fixture_open(water_fixture *f)
@@ -90,10 +96,44 @@ static inline virga_particle_gpu *water_fixture_add(water_fixture *f, double x, 
     return particle;
 }
 
+/* Radius of the kernel in m. */
+static inline double water_h(const water_fixture *f)
+{
+    return (double)f->settings.kernel_spacings * (double)f->settings.spacing_m;
+}
+
+/* How much of the water around a particle is there: the largest share, with a factor that falls from 1 at the distance
+ * VIRGA_WATER_COVER_NEAR h to 0 at h. */
+static inline double water_reference_cover(const water_fixture *f, uint32_t i)
+{
+    double cover = (double)f->particles[i].share;
+    for (uint32_t j = 0; j < f->count; j++) {
+        double r2 = 0;
+        for (int axis = 0; axis < 3; axis++)
+            r2 += pow((double)f->particles[j].position[axis] - (double)f->particles[i].position[axis], 2);
+        const double factor = (1 - sqrt(r2) / water_h(f)) / (1 - VIRGA_WATER_COVER_NEAR);
+        cover = fmax(cover, (double)f->particles[j].share * fmin(factor, 1));
+    }
+    return cover;
+}
+
+/* The covers of particles, and their shares of these, which the references below use: 1 until then. A step calls it. */
+static inline void water_fixture_shares(water_fixture *f)
+{
+    bool fades = false;
+    for (uint32_t i = 0; f->settings.fading == VIRGA_WATER_FADING_COVERAGE && i < f->count; i++)
+        fades |= f->particles[i].share < 1;
+    for (uint32_t i = 0; i < f->count; i++) {
+        f->covers[i] = fades ? water_reference_cover(f, i) : 1;
+        f->shares[i] = (double)f->particles[i].share / f->covers[i];
+    }
+}
+
 /* Records a step with the particles of the fixture and reads its results back. */
 static inline virga_result water_fixture_try(water_fixture *f)
 {
     VkDeviceSize offset = 0;
+    water_fixture_shares(f);
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     virga_water_step_info info = {.particles = f->particle_buffer.buffer,
                                   .count = f->count,
@@ -143,8 +183,22 @@ static inline void water_fixture_close(water_fixture *f)
 {
     virga_water_destroy(&f->water);
     virga_context_destroy(&f->context);
+    free(f->covers);
+    free(f->shares);
     host_buffer *const buffers[] = {&f->particle_buffer, &f->download};
     assert_int_equal(effect_fixture_end(&f->gpu, buffers, 2), 0);
+}
+
+/* The radius of a surfel of which all is there, see virga_surfel_gpu. */
+static inline float water_whole_radius(double radius_m)
+{
+    const float given = (float)radius_m;
+    uint32_t bits;
+    float whole;
+    memcpy(&bits, &given, sizeof bits);
+    bits &= ~0xffu;
+    memcpy(&whole, &bits, sizeof whole);
+    return whole;
 }
 
 /* ---- shapes of water, with particles `d` apart */
@@ -194,12 +248,6 @@ static inline void water_fixture_shells(water_fixture *f, const double center[3]
 
 /* ---- reference in double precision */
 
-/* Radius of the kernel in m. */
-static inline double water_h(const water_fixture *f)
-{
-    return (double)f->settings.kernel_spacings * (double)f->settings.spacing_m;
-}
-
 /* Density at a point (equation 1), and its gradient. */
 static inline double water_reference(const water_fixture *f, const double at[3], double gradient[3])
 {
@@ -217,9 +265,9 @@ static inline double water_reference(const water_fixture *f, const double at[3],
         }
         if (!(r2 < h * h))
             continue;
-        sum += (double)f->particles[i].share * factor * pow(h * h - r2, 3);
+        sum += f->shares[i] * factor * pow(h * h - r2, 3);
         for (int axis = 0; gradient && axis < 3; axis++)
-            gradient[axis] -= (double)f->particles[i].share * factor * 6 * pow(h * h - r2, 2) * apart[axis];
+            gradient[axis] -= f->shares[i] * factor * 6 * pow(h * h - r2, 2) * apart[axis];
     }
     return sum;
 }

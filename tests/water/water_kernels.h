@@ -21,7 +21,7 @@ static inline double water_weight(const water_fixture *f, uint32_t i, uint32_t j
         r2 += apart[k] * apart[k];
     }
     const double q = sqrt(r2) / water_h(f);
-    return q < 1 ? (double)f->particles[j].share * (1 - q * q * q) : 0;
+    return q < 1 ? f->shares[j] * (1 - q * q * q) : 0;
 }
 
 /* Mean and covariance of the neighbours: equations 9 and 10. */
@@ -120,7 +120,7 @@ static inline void water_kernels_reference(const water_fixture *f, water_kernel 
         water_kernel_moments(f, i, &all[i]);
     for (uint32_t i = 0; i < f->count; i++) {
         double far = 0;
-        all[i].factor = (double)f->particles[i].share;
+        all[i].factor = f->shares[i];
         if (f->settings.kernel == VIRGA_WATER_KERNEL_ANISOTROPIC) {
             water_kernel_center(f, all, i, all[i].center, &far);
             water_kernel_shape(f, h - far, &all[i]);

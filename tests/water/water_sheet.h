@@ -60,7 +60,8 @@ static inline void sheet_record(shot *of, VkCommandBuffer cmd)
     const uint32_t count = SHEET_ACROSS * SHEET_ACROSS;
     virga_surfel_gpu *surfels = of->extra.mapped;
     for (uint32_t i = 0; i < count; i++) {
-        surfels[i] = (virga_surfel_gpu){.normal = 0x7fff0000 /* +Y */, .radius = (float)(1.2 * SHEET_STEP_M)};
+        surfels[i] =
+            (virga_surfel_gpu){.normal = 0x7fff0000 /* +Y */, .radius = water_whole_radius(1.2 * SHEET_STEP_M)};
         sheet_position(i, surfels[i].position);
     }
     surfels_replace(of, cmd, count);

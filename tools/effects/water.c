@@ -277,6 +277,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.volume_m3 = (float)(from->volume * pow(p->source.spacing_m, 3));
     settings.kernel_spacings = (float)from->kernel_spacings;
     settings.level = (float)from->level;
+    settings.fading = water_mixes_files(s->scene, &p->source) ? VIRGA_WATER_FADING_VOLUME : VIRGA_WATER_FADING_COVERAGE;
     settings.style = (virga_water_style)from->style;
     settings.shading = (virga_water_shading)from->shading;
     settings.surfel_difference = (float)from->surfel_difference;

@@ -19,17 +19,18 @@ void main()
     const vec2 at = image_pixel(gl_FragCoord.xy);
     const vec4 sums = sums_at(at);
     const float depth = sums.z / max(sums.w, 1e-12);
-    float covered = covered_at(at, sums, 0.0);
+    const vec4 moved = texelFetch(motion_image, ivec2(at), 0); // the third channel: see specks.glsl
+    float covered = covered_at(at, sums, vec4(0.0)).surface;
     if (view.depth_given != 0u)
         covered *= soft_edge(depth);
     if (covered < 0.5)
         discard;
-    const vec4 moved = texelFetch(motion_image, ivec2(at), 0); // the third channel: see specks.glsl
     if (what == VIRGA_WATER_DATA_THICKNESS_GPU)
         data = vec4(thickness_at(at), 0.0, 0.0, 1.0);
     else if (what == VIRGA_WATER_DATA_NORMAL_GPU)
         data = vec4(seen_normal(normal_of(sums.xy / sums.w), normalize(pixel_ray(gl_FragCoord.xy))), 1.0);
     else
-        data = vec4(moved.xy / (sums.w + moved.z) * vec2(view.motion_scale[0], view.motion_scale[1]), 0.0, 1.0);
+        data = vec4(moved.xy / (sums.w + max(moved.z, 0.0)) * vec2(view.motion_scale[0], view.motion_scale[1]),
+                    0.0, 1.0);
     gl_FragDepth = clamp(view.depth_b / depth - view.depth_a, 0.0, 1.0);
 }

@@ -6,6 +6,7 @@
 #include "view.glsl"
 #include "gpu/texels.glsl"
 TEXELS(part_texel, 26, 25)
+#include "water/packed_share.glsl"
 #include "is_open.glsl"
 
 layout(constant_id = 0) const uint PASS = 0u; // as in splat.vert
@@ -23,7 +24,7 @@ void main()
     const vec3 center = uintBitsToFloat(one.xyz), first = uintBitsToFloat(two.xyz), second = uintBitsToFloat(three.xyz);
     const vec3 clip = center + at.x * first + at.y * second;
     position = at;
-    color_weight = vec4(uintBitsToFloat(part_texel(texel + 3u).rgb), unpackHalf2x16(two.w).x);
+    color_weight = vec4(uintBitsToFloat(part_texel(texel + 3u).rgb), share_in(two.x) * unpackHalf2x16(two.w).x);
     // As in splat.vert. Specks have no color of their own.
     const bool is_drawn = color_weight.w >= 0.0 && (PASS != 2u || is_over_open(center, first, second));
     gl_Position = is_drawn ? vec4(clip.xy, NEAR_W, clip.z) : DRAWN_NOWHERE;

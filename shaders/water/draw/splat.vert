@@ -6,13 +6,14 @@
 #include "view.glsl"
 #include "gpu/texels.glsl"
 TEXELS(splat_texel, 7, 6)
+#include "water/packed_share.glsl"
 #include "is_open.glsl"
 
 layout(constant_id = 0) const uint PASS = 0u; // 0: sums, 1: the depth before them, 2: what is behind
 #define DEPTH_ONLY (PASS == 1u)
 
 layout(location = 0) out vec2 position;
-layout(location = 1) flat out vec3 facing_weight;
+layout(location = 1) flat out vec4 facing_weight; // w: the share that is there
 layout(location = 2) flat out vec2 motion;
 
 void main()
@@ -28,7 +29,7 @@ void main()
     const float scale = DEPTH_ONLY ? push_scale.y : 1.0;
     const vec3 clip = center + scale * (at.x * first + at.y * second);
     position = at;
-    facing_weight = vec3(unpack_facing(one.w), weight);
+    facing_weight = vec4(unpack_facing(one.w), weight, share_in(two.x));
     motion = unpackHalf2x16(three.w);
     // Depth is NEAR_W / w. Moving the splat away from the eye, by a factor, divides its depth by this factor.
     // Hides nothing, or fills nothing.

@@ -1,6 +1,7 @@
 // splat_close.comp - how much of each pixel the nearest water leaves open, second pass: where its own sum of weights is
 // small, neighbours may close it.
-// One workgroup per listed block, one invocation per pixel. Reads: sums, the list of blocks. Writes: gaps, open blocks.
+// One workgroup per listed block, one invocation per pixel. Reads: sums, the list of blocks, the
+// grid's state. Writes: gaps, open blocks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,13 +11,21 @@
 #include "gap_blocks.glsl"
 #include "mark_block.glsl"
 #include "gap_image.glsl"
+#include "shared/particle_grid.h"
+layout(scalar, set = 0, binding = 9) readonly buffer Grid { virga_particle_grid_gpu grid; };
 
 layout(local_size_x = VIRGA_WATER_BLOCK_PX, local_size_y = VIRGA_WATER_BLOCK_PX) in;
 
 #define FAR       1.75 // radii of surfels
 #define FAR_STEPS 5
 
-float weight_at(ivec2 texel) { return texel_of(sums_image, texel, ivec2(look.width, look.height)).w; }
+// Of all of the water, of which a part may not be there.
+float weight_at(ivec2 texel)
+{
+    const ivec2 size = ivec2(look.width, look.height);
+    const vec4 sums = texel_of(sums_image, texel, size);
+    return sums.w + (grid.fading_groups[0] > 0u ? missing_of(sums, texel_of(motion_image, texel, size)) : 0.0);
+}
 
 // The less of the sums of weights of two opposite neighbours.
 float weight_between(ivec2 texel, ivec2 aside) { return min(weight_at(texel + aside), weight_at(texel - aside)); }
@@ -59,17 +68,20 @@ void main()
 {
     const uint block = open_words[listed_word(gl_WorkGroupID.x)];
     const ivec2 here = ivec2(block & 0xffffu, block >> 16) * VIRGA_WATER_BLOCK_PX + ivec2(gl_LocalInvocationID.xy);
-    const vec4 sums = texelFetch(sums_image, min(here, ivec2(look.width, look.height) - 1), 0);
-    if (here.x >= int(look.width) || here.y >= int(look.height) || sums.w <= LEAST || sums.w >= ENOUGH)
+    const ivec2 last = ivec2(look.width, look.height) - 1;
+    const vec4 sums = texelFetch(sums_image, min(here, last), 0);
+    const float weight = weight_at(here), there = sums.w / max(weight, 1e-12);
+    if (any(greaterThan(here, last)) || weight <= LEAST || weight >= ENOUGH)
         return;
-    const float depth = sums.z / sums.w, closed = closed_weight(here, sums.w, surfel_px(depth));
+    const float depth = sums.z / sums.w, closed = closed_weight(here, weight, surfel_px(depth));
+    const float missing = there < WHOLE ? 1.0 - there : 0.0;
     // With the widest border: what water.frag may not draw whole is open.
     const float open = 1.0 - coverage_of(closed, MAX_SLOPE, depth);
     if (open <= 0.0) {
-        write_gap(here, 0.0, closed);
+        write_gap(here, missing, closed, weight, there);
         return;
     }
     // Where neighbours alone close the rest of a pixel, water behind it has to make all of it whole.
-    write_gap(here, FILL * open + 2.0 * max(ENOUGH - sums.w, 0.0), closed);
+    write_gap(here, max(FILL * open + 2.0 * max(ENOUGH - weight, 0.0), missing), closed, weight, there);
     mark_block(first_open_texel(), here);
 }

@@ -9,7 +9,8 @@
 //
 //     center x, y, w   clip coordinates
 //     facing           see facing_of and pack_facing
-//     first axis       clip coordinates x, y, w, per radius
+//     first axis       clip coordinates x, y, w, per radius; in the lowest bits of x the share of a surfel of the
+//                      surface that is there, see packed_share.glsl
 //     weight           half float: at its center; negative for specks (specks.glsl)
 //     push, scale      see pack_push_scale
 //     second axis      clip coordinates x, y, w, per radius
@@ -114,6 +115,7 @@ Splat splat_of(Surfel s)
     const vec2 facing = facing_of(s.normal), motion = motion_of(s, center), streak = streak_of(s, center);
     if (factor < 0.0 && dot(streak, streak) > MIN_STREAK_PX * MIN_STREAK_PX)
         weight *= stretch_speck(streak, sqrt(wide * narrow) / pixel_m, center, a, b);
+    a.x = with_share(a.x, s.droplet > 0.0 ? 1.0 : s.share);
     return Splat(uvec4(floatBitsToUint(center.xyw), pack_facing(facing)),
                  uvec4(floatBitsToUint(a), (halves(factor * weight, 0.0) & 0xffffu) |
                                                pack_push_scale(vec2(push, scale))),

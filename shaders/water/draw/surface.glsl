@@ -27,6 +27,14 @@ vec4 sums_at(vec2 at)
                   : texelFetch(sums_image, ivec2(at), 0);
 }
 
+// What is missing of the sum of weights of the surface, as a part of the water is not there: `moved` are the sums of
+// splat_sum.frag. It is subtracted from the sum of the weights of specks, moved.z. The sum of their weights times
+// depth, moved.w, tells the two apart, with specks at the surface's depth; those in front of it are taken for fewer.
+float missing_of(vec4 sums, vec4 moved)
+{
+    return max(moved.w * sums.w / max(sums.z, 1e-12) - moved.z, 0.0);
+}
+
 // Radius of most surfels at a view depth, in pixels of the images.
 float surfel_px(float depth) { return look.surfel_scale * look.surfel_m / (look.pixel_angle * depth); }
 

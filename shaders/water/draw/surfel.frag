@@ -30,18 +30,19 @@ void main()
     const vec4 sums = sums_at(at);
     const float depth = sums.z / max(sums.w, 1e-12);
     const vec4 moved = motion_sums_at(at);
-    float covered = covered_at(at, sums, moved.z);
+    const Covered cover = covered_at(at, sums, moved);
+    float covered = cover.surface;
     if (HAS_DEPTH)
         covered *= soft_edge(depth);
     const vec4 color = SCALED ? between_texels(color_image, at, size) : texelFetch(color_image, ivec2(at), 0);
     if (color.w <= 1e-9)
         covered = 0.0;
-    const Specks specks = specks_of(moved, pixel_ray(gl_FragCoord.xy));
+    const Specks specks = specks_of(vec4(moved.xy, cover.specks, moved.w), pixel_ray(gl_FragCoord.xy));
     if (covered + specks.covered <= 0.0)
         discard;
     const vec4 light = specks_over(specks, vec4(max(color.rgb / max(color.w, 1e-9), vec3(0.0)), 1.0) * covered);
     radiance = for_target(light);
     gl_FragDepth = clamp(view.depth_b / (covered > 0.0 ? depth : specks.depth) - view.depth_a, 0.0, 1.0);
     WRITE_REACTIVE(light.a, view.reactive_gain);
-    WRITE_MOTION(moved.xy / max(sums.w + moved.z, 1e-12), light.a);
+    WRITE_MOTION(moved.xy / max(sums.w + cover.specks, 1e-12), light.a);
 }

@@ -1,6 +1,6 @@
 // surfels.glsl - the surfels of the newest step.
 #include "water/octahedron.glsl"
-#include "water/surfel_share.glsl"
+#include "water/packed_share.glsl"
 #include "gpu/texels.glsl"
 TEXELS(surfel_texel, 3, 2)
 #define STATE_ACCESS readonly
@@ -14,7 +14,7 @@ struct Surfel {
     float area; // of the surface that it stands for
     float droplet; // radius of its droplet; 0: it is of the surface
     float turn;    // of those of a droplet: which ones become specks first, see splats.glsl
-    float share;   // of those of a droplet: how much of it is there, see virga_particle_gpu
+    float share; // how much of its droplet or of the water around it is there, see virga_particle_gpu
 };
 
 // Surfels are made where the surface crosses edges of a grid, so there are |x| + |y| + |z| of them for each square of
@@ -59,8 +59,8 @@ Surfel surfel_at(uint index)
     s.droplet = of_surface ? 0.0 : s.radius / VIRGA_WATER_DROPLET_SURFEL;
     const uint of_spray = max(index, state.first_spray_surfel) - state.first_spray_surfel;
     s.turn = (float(of_spray % VIRGA_WATER_DROPLET_SURFELS) + 0.5) / float(VIRGA_WATER_DROPLET_SURFELS);
-    s.share = of_surface ? 1.0 : share_of_surfel(two.w);
-    if (s.share < 1.0)
+    s.share = share_in(two.w);
+    if (s.share < 1.0 && !of_surface)
         grow_to_whole(s);
     return s;
 }

@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "gpu/texels.glsl"
+#include "water/packed_share.glsl"
 #include "pyramid.glsl"
 #include "prepared.glsl"
 #include "shared/particle_grid.h"
@@ -41,7 +42,7 @@ void main()
         return;
     const ivec2 middle = ivec2(floor(at));
     const vec3 x = weights(at.x - float(middle.x) - 0.5), y = weights(at.y - float(middle.y) - 0.5);
-    const float added = VIRGA_WATER_VOLUME_UNITS * particle.w * look.volume_m3 * length(p) /
+    const float added = VIRGA_WATER_VOLUME_UNITS * counted_share(particle.w) * look.volume_m3 * length(p) /
                         (clip.w * texel_m * texel_m);
     for (int i = 0; i < 9; i++) {
         const ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);

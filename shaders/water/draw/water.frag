@@ -31,14 +31,15 @@ void main()
     const vec3 ray = pixel_ray(gl_FragCoord.xy);
     Water water = Water(at, sums.z / max(sums.w, 1e-12), normal_of(sums.xy / max(sums.w, 1e-12)), 0.0, false);
     const vec3 bend_x = dFdx(water.normal), bend_y = dFdy(water.normal);
-    water.covered = covered_at(at, sums, moved.z);
+    const Covered cover = covered_at(at, sums, moved);
+    water.covered = cover.surface;
     if (HAS_CONTACT)
         water = with_contact(water, ray);
     const float depth = water.depth;
     float covered = water.covered;
     if (HAS_DEPTH)
         covered *= water.is_new ? edge_of_contact(depth) : soft_edge(depth);
-    const Specks specks = specks_of(moved, ray);
+    const Specks specks = specks_of(vec4(moved.xy, cover.specks, moved.w), ray);
     if (covered + specks.covered <= 0.0)
         discard;
     Point point;
@@ -52,5 +53,5 @@ void main()
     radiance = for_target(light);
     gl_FragDepth = clamp(view.depth_b / (covered > 0.0 ? depth : specks.depth) - view.depth_a, 0.0, 1.0);
     WRITE_REACTIVE(light.a, view.reactive_gain);
-    WRITE_MOTION(moved.xy / max(sums.w + moved.z, 1e-12), light.a);
+    WRITE_MOTION(moved.xy / max(sums.w + cover.specks, 1e-12), light.a);
 }

@@ -55,14 +55,16 @@ float crest_potential(uint own, vec3 velocity)
 uvec2 emission_of(uint own, float gap_s)
 {
     const vec4 particle = uintBitsToFloat(sorted_texel(own));
-    const vec3 velocity = uintBitsToFloat(velocity_texel(own)).xyz;
+    const vec4 moving = uintBitsToFloat(velocity_texel(own)); // w: see surface/cover.comp
+    const vec3 velocity = moving.xyz;
     const float energy = clamped(0.5 * dot(velocity, velocity), frame.foam_energy[0], frame.foam_energy[1]);
     if (energy <= 0.0 || gap_s <= 0.0)
         return uvec2(0u);
     here = particle.xyz;
     const float air = clamped(uintBitsToFloat(normal_texel(own)).w, frame.foam_air[0], frame.foam_air[1]);
     const float waves = crest_potential(own, velocity);
-    const float made = particle.w * energy * (frame.foam_rates[0] * air + frame.foam_rates[1] * waves) * gap_s;
+    const float made =
+        particle.w * moving.w * energy * (frame.foam_rates[0] * air + frame.foam_rates[1] * waves) * gap_s;
     const uint id = particles[sorted_indices[own]].id;
     const float rounded = floor(made + virga_unit(virga_hash3(id, frame.foam_now_us, 0xf0a3u)));
     return uvec2(uint(min(rounded, float(VIRGA_WATER_FOAM_EACH))), floatBitsToUint(energy * max(air, waves)));

@@ -15,6 +15,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
+#include "water/packed_share.glsl"
 #include "list.glsl"
 #include "table.glsl"
 #include "enter.glsl"
@@ -125,7 +126,8 @@ void main()
     if (splash >= splash_list.count)
         return;
     const uint particle = splash_particle(splash), before = find_before(particles[particle].id);
-    const float part = spray_part(densities[particle]), volume = frame.volume * sorted[splash_sorted[splash]].w;
+    const float part = spray_part(densities[particle]);
+    const float volume = frame.volume * counted_share(sorted[splash_sorted[splash]].w);
     const vec3 velocity = particle_velocity(particle);
     virga_leaver_gpu own = begin_leaver(particle, before);
     if (!is_done(own, part)) {

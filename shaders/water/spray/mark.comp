@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
 #include "spray.glsl"
+#include "water/packed_share.glsl"
 #include "table.glsl"
 #include "leaver.glsl"
 #include "count.glsl"
@@ -41,7 +42,9 @@ void main()
                 kind = SECOND_KIND;
                 if (frame.serial != 0u && leaver.taken_nl > 0u)
                     count_taken(leaver.taken_nl);
-                sorted[own].w *= part_here(particle, leaver, part);
+                const float share = sorted[own].w;
+                sorted[own].w =
+                    with_share(share * part_here(particle, leaver, part), share_in(floatBitsToUint(share)));
             }
         }
     }

@@ -10,7 +10,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
 #include "water/octahedron.glsl"
-#include "water/surfel_share.glsl"
+#include "water/packed_share.glsl"
 #include "gpu/texels.glsl"
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
@@ -93,5 +93,5 @@ void main()
         normal = length2 > 1e-20 ? -gradient * inversesqrt(length2) : along;
     }
     surfels[2u * surfel] = uvec4(floatBitsToUint(ball.xyz + radius * along), pack_octahedron(normal));
-    surfels[2u * surfel + 1u] = uvec4(motion.xyz, floatBitsToUint(radius_with_share(size, share)));
+    surfels[2u * surfel + 1u] = uvec4(motion.xyz, floatBitsToUint(with_share(size, share)));
 }

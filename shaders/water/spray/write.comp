@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
+#include "water/packed_share.glsl"
 #include "list.glsl"
 #include "pattern.glsl"
 #include "table.glsl"
@@ -44,7 +45,7 @@ void main()
         hand_over_all(own, splash, sorted_particle.xyz, velocity);
         return;
     }
-    const float volume = frame.volume * sorted_particle.w * spray_part(densities[particle]);
+    const float volume = frame.volume * counted_share(sorted_particle.w) * spray_part(densities[particle]);
     const float radius = pow(0.2387324146 * volume / float(own.pieces), 1.0 / 3.0); // 3 / (4 pi)
     for (uint i = 0u; i < own.pieces; i++) {
         const uint at = droplet_starts[splash] + i;

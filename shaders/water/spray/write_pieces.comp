@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
+#include "water/packed_share.glsl"
 #include "list.glsl"
 #include "pieces.glsl"
 #include "table.glsl"
@@ -40,7 +41,7 @@ void main()
         hand_over_pieces(own, splash, sorted_particle.xyz);
         return;
     }
-    const float volume = frame.volume * sorted_particle.w * spray_part(densities[particle]);
+    const float volume = frame.volume * counted_share(sorted_particle.w) * spray_part(densities[particle]);
     for (uint i = 0u; i < own.pieces; i++) {
         const uint at = droplet_starts[splash] + i;
         if (at >= frame.max_droplets)

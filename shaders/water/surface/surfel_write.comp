@@ -1,6 +1,7 @@
 // surfel_write.comp - moves surfels onto the surface. A surfel begins where the density, taken as linear along a
 // crossed edge of the grid, has the value of the surface. There the density and its gradient are summed up, and a step
-// of Newton's method along the gradient leads onto the surface itself.
+// of Newton's method along the gradient leads onto the surface itself. Its share is the mean cover of the particles
+// around it, see cover.comp.
 // One invocation per surfel. Reads: fields, block_of, centers, shapes, sorted_velocities. Reads and writes: surfels.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -9,6 +10,7 @@
 #include "water/block_list.glsl"
 #include "water/blocks.glsl"
 #include "water/octahedron.glsl"
+#include "water/packed_share.glsl"
 #define STATE_ACCESS readonly
 #include "water/state.glsl"
 
@@ -17,7 +19,7 @@ layout(local_size_x = VIRGA_WATER_LANES) in;
 layout(std430, set = 0, binding = 15) buffer Surfels { uvec4 surfels[]; };
 
 vec3 here;
-float sum, inv_h2;
+float sum, cover_sum, inv_h2;
 vec3 gradient, velocity_sum;
 
 #include "water/kernel_types.glsl"
@@ -29,6 +31,7 @@ void visit(Kernel kernel)
     sum += weight * x;
     gradient += weight * conjugate;
     velocity_sum += (weight * x) * kernel.velocity;
+    cover_sum += (weight * x) * kernel.cover;
 }
 #define GATHER_VELOCITIES
 #include "water/gather_kernels.glsl"
@@ -53,7 +56,7 @@ void main()
     const uint cell = blocks[edge.x];
     here = crossing(cell, edge.x, edge.y & 63u, edge.y >> 6);
     inv_h2 = frame.inv_h2;
-    sum = 0.0;
+    sum = cover_sum = 0.0;
     gradient = velocity_sum = vec3(0.0);
     gather(cell);
     const float slope2 = dot(gradient, gradient) * frame.kernel_gradient * frame.kernel_gradient;
@@ -62,5 +65,6 @@ void main()
     step_m *= min(1.0, 0.5 * frame.point_m * inversesqrt(max(dot(step_m, step_m), 1e-20)));
     const vec3 normal = gradient * inversesqrt(max(dot(gradient, gradient), 1e-30));
     surfels[2u * surfel] = uvec4(floatBitsToUint(here + step_m), pack_octahedron(normal));
-    surfels[2u * surfel + 1u] = uvec4(floatBitsToUint(velocity_sum / max(sum, 1e-20)), floatBitsToUint(frame.surfel_m));
+    const float radius = with_share(frame.surfel_m, cover_sum / max(sum, 1e-20));
+    surfels[2u * surfel + 1u] = uvec4(floatBitsToUint(velocity_sum / max(sum, 1e-20)), floatBitsToUint(radius));
 }

@@ -105,12 +105,16 @@ static bool choose_spacing(const scene_file *scene, water_source *source, const 
     return true;
 }
 
-/* Without ids the particles of two files are there at once. */
-static uint32_t most_at_once(const scene_file *scene, const water_source *source)
+bool water_mixes_files(const scene_file *scene, const water_source *source)
 {
     const scene_water *from = scene_water_of(scene);
     const bool paired = from->ids == SCENE_WATER_IDS_ROWS || (from->ids == SCENE_WATER_IDS_FILE && source->has_ids);
-    return paired || particle_sequence_length(source->sequence) < 2 ? source->most : 2 * source->most;
+    return source->sequence && !paired && particle_sequence_length(source->sequence) > 1;
+}
+
+static uint32_t most_at_once(const scene_file *scene, const water_source *source)
+{
+    return water_mixes_files(scene, source) ? 2 * source->most : source->most;
 }
 
 uint32_t water_left_out(const scene_file *scene, const water_source *source)

@@ -74,6 +74,9 @@ bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, 
  * fit to the volume of particles, and how many are left out. */
 bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size);
 
+/* Whether the particles of two files are there at once, as they have no ids. */
+bool water_mixes_files(const scene_file *scene, const water_source *source);
+
 /* Particles at one time for which water has no room, going by the files that were read. */
 uint32_t water_left_out(const scene_file *scene, const water_source *source);
 
