@@ -4,8 +4,9 @@ maps, scenes/panel_bumps.png and scenes/leaf_bumps.png. Python 3 standard librar
 the same bytes.
 
 The night is a street in rain, out of focus: a lens that focuses on a window shows lamps, signs and cars as discs. The
-panel is 30 x 22 cm of car paint on hammered sheet metal; its bump map is the height of the same surface. The leaf is
-18 x 13 cm of a broad leaf's upper side, its tip downwards: veins lie in furrows, and what is between them bulges.
+panel is 30 x 22 cm of car paint on sheet metal with shallow dents; its bump map is the height of the same surface. The
+leaf is 18 x 13 cm of a broad leaf's upper side, its tip downwards: veins lie in furrows, and what is between them
+bulges.
 """
 import array
 import math
@@ -116,32 +117,37 @@ def write_exr(path, image):
 
 PANEL = (0.30, 0.22)  # m
 TILE = (0.075, 0.055)  # m of the bump map, repeated four times each way
-DEPTH = 0.0006  # m from the lowest to the highest
+DEPTH = 0.0005  # m from the lowest to the highest
 BUMPS = (300, 220)  # pixels
-ROUND = 0.12  # of the squared radius of a mark, how far ridges are rounded
+FINEST = 3.0  # periods in a tile of the shortest wave
 
 
-def dents():
-    """Middles of hammer marks, a jittered grid that repeats, in tiles."""
-    rng = random.Random(3)
-    return [((i + 0.5 * (j % 2) + rng.uniform(0.2, 0.8)) / 8, (j + rng.uniform(0.2, 0.8)) / 6, rng.uniform(0.75, 1.0))
-            for j in range(6) for i in range(8)]
+def waves():
+    """Waves that repeat with the tile: periods along both sides, phase and height. Beaten sheet metal has no edges: its
+    heights fall with the square of the frequency, so that no length stands out among its slopes."""
+    rng, all_waves = random.Random(3), []
+    for i in range(0, 4):
+        for j in range(-3, 4):
+            if (i, j) > (0, 0) and math.hypot(i, j) <= FINEST:
+                all_waves.append((i, j, rng.random(), rng.uniform(0.5, 1.0) / (i * i + j * j)))
+    return all_waves
 
 
-MARKS = dents()
+WAVES = waves()
+
+
+def sum_of_waves(u, v):
+    x, y = u / TILE[0], v / TILE[1]
+    return sum(size * math.cos(2 * math.pi * (i * x + j * y + phase)) for i, j, phase, size in WAVES)
+
+
+SPAN = [sum_of_waves(TILE[0] * i / 75, TILE[1] * j / 55) for i in range(75) for j in range(55)]
+LOWEST, HIGHEST = min(SPAN), max(SPAN)
 
 
 def height_at(u, v):
-    """Height in [0; 1] at a position in metres. Each hammer mark is a round hollow with rounded ridges around it. The
-    height is the squared distance to the nearest mark, as a smooth minimum over all marks."""
-    x, y, sum_of_all = u / TILE[0], v / TILE[1], 1e-30
-    for mx, my, size in MARKS:
-        dx, dy = (x - mx + 0.5) % 1.0 - 0.5, (y - my + 0.5) % 1.0 - 0.5
-        far2 = ((dx * TILE[0]) ** 2 + (dy * TILE[1]) ** 2) / (0.0085 * size) ** 2
-        if far2 < 3.0:
-            sum_of_all += math.exp(-far2 / ROUND)
-    nearest2 = max(-ROUND * math.log(sum_of_all), 0.0)
-    return 1.0 - math.exp(-1.6 * nearest2)
+    """Height in [0; 1] at a position in metres."""
+    return min(max((sum_of_waves(u, v) - LOWEST) / (HIGHEST - LOWEST), 0.0), 1.0)
 
 
 def write_png(path, width, height, pixel, colour_type):
@@ -175,7 +181,7 @@ def make_panel(path):
     g.surface("metal_paint", [[(PANEL[0] * (i / columns - 0.5), PANEL[1] * j / rows,
                                 DEPTH * (height_at(PANEL[0] * i / columns, PANEL[1] * j / rows) - 1.0))
                                for i in range(columns + 1)] for j in range(rows + 1)], planar=True)
-    scene = Scene([{"name": "metal_paint", "colour": (0.22, 0.022, 0.018), "rough": 0.16, "metal": 0.6}], {})
+    scene = Scene([{"name": "metal_paint", "colour": (0.26, 0.02, 0.016), "rough": 0.1, "metal": 0.5}], {})
     scene.place(g)
     scene.write(path)
 

@@ -152,6 +152,72 @@ static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
     shot_close(&s);
 }
 
+/* Surroundings with a radiance of 1 in all directions, before a plate that is grey all over. */
+static void open_before_grey(shot *s, float grey)
+{
+    open_before_black(s);
+    float *plate = malloc(16ull * WIDTH * HEIGHT);
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++)
+        plate[i] = grey;
+    shot_plate(s, plate);
+    free(plate);
+    for (int i = 0; i < 3; i++)
+        s->settings.lighting.environment_sh[0][i] = 1 / 0.282095f;
+    s->settings.opaque = true;
+    shot_face(s, 1, 30);
+}
+
+/* Paint with an index of 1.5 reflects 0.04 under air, and ((1.5 - 1.333) / (1.5 + 1.333))^2 under water. What a film
+ * shows of it, straight on, lacks the difference, but of what is black already no more than six tenths. */
+static void water_takes_the_gloss_off_paint(void **state)
+{
+    (void)state;
+    const float greys[] = {0.2f, 0.02f};
+    for (int i = 0; i < 2; i++) {
+        shot s;
+        open_before_grey(&s, greys[i]);
+        put_film(&s, 80);
+        const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+        const double air = 0.5 / 2.5, coat = (1.5 - WATER) / (1.5 + WATER), water = (WATER - 1) / (WATER + 1);
+        const double color = fmax((double)greys[i] - air * air + coat * coat, 0.4 * (double)greys[i]);
+        assert_float_equal(middle[0], color * (1 - water * water) + water * water, 3e-4);
+        shot_close(&s);
+    }
+}
+
+/* On a black surface a drop shows what it mirrors alone: where it leans by up to 35 degrees, the surroundings, which
+ * are white, by Fresnel; where it leans by more than 50, the surface beside it, as its rays go down to that. */
+static void the_rim_of_a_drop_on_metal_mirrors_the_metal(void **state)
+{
+    (void)state;
+    shot s;
+    open_before_grey(&s, 0);
+    s.settings.advancing_deg = 110;
+    s.settings.receding_deg = 100;
+    const ball b = ball_of(&s, shot_drop(&s, 0.048, 0.032, shot_water(&s, 8e-3)));
+    const float *pixels = shot_draw(&s, false);
+    const double f = 0.5 * HEIGHT / tan(15 * M_PI / 180), away = fabs(s.camera.position_m[2]);
+    int gentle = 0, steep = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const double right = (i % WIDTH + 0.5 - 0.5 * WIDTH) / f, up = -(i / WIDTH + 0.5 - 0.5 * HEIGHT) / f;
+        const double p = 0.048 + right * away - b.middle[0], q = 0.032 + up * away - b.middle[1];
+        const double r = hypot(p, q) / b.radius;
+        if (r > 0.9)
+            continue;
+        const double x = p / b.radius, y = q / b.radius, sag = 1 + b.sag[1] * y;
+        const double slope = hypot(-2 * x * sag, -2 * y * sag + (1 - r * r) * b.sag[1]) * b.height / b.radius;
+        if (slope < 0.7) {
+            REQUIRE(pixels[4 * i] > 0.019f && pixels[4 * i] < 0.03f);
+            gentle++;
+        } else if (slope > 1.6) {
+            assert_float_equal(pixels[4 * i], 0, 1e-4);
+            steep++;
+        }
+    }
+    REQUIRE(gentle > 50 && steep > 50);
+    shot_close(&s);
+}
+
 /* A lamp before the pane is in the host's picture, where it is. A drop is a lens and shows it a second time; a sheet of
  * film lets it through, and has nothing to add: spread over a disc of 0.02 rad it would glow far around the lamp. */
 static void only_lenses_show_a_lamp_again(void **state)
@@ -405,6 +471,8 @@ int main(void)
         cmocka_unit_test(a_flat_film_does_not_bend),
         cmocka_unit_test(water_reflects_by_fresnel),
         cmocka_unit_test(a_film_on_metal_mirrors_a_lamp_widely),
+        cmocka_unit_test(water_takes_the_gloss_off_paint),
+        cmocka_unit_test(the_rim_of_a_drop_on_metal_mirrors_the_metal),
         cmocka_unit_test(only_lenses_show_a_lamp_again),
         cmocka_unit_test(a_drop_on_metal_has_a_shadow_and_a_focus_as_bright),
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),

@@ -4,6 +4,8 @@
 #define FILM_TURN 0.15         // rad: how much the normal of film on a surface that is not glass varies
 #define LENS vec2(30.0, 100.0) // 1/m: water that is less curved than x is no lens; from y on, as in a drop, it is one
 #define UNDER 0.5              // how much light the focus takes away at the middle under a drop
+#define COAT 1.5               // index of what covers a surface that is not glass
+#define LEAST_COLOR 0.4        // part of the light of a dry surface that is its color, at least
 #define INSIDE_SHARE 0.25 // part of the environment's light in the room behind the pane, for rays reflected into it
 
 // Lamps in a direction: each a small disc, as wide as what a pixel of the drop shows of the world.
@@ -59,6 +61,37 @@ float focus_under(vec3 normal, vec3 flat_normal, vec3 light_along)
     return 1.0 + strength * (16.0 * UNDER * far_side * far_side * far_side * far_side - UNDER * (1.0 - x));
 }
 
+// On a surface that is not glass: what it reflects when dry and not when wet, per light of the surroundings.
+// Paint, wax and most coats have an index near 1.5: under air they reflect 4 % at right angles, under water 0.35 %. So
+// colors under water are deeper.
+float dry_gloss(float cos_air)
+{
+    const float cos_coat = sqrt(1.0 - (1.0 - cos_air * cos_air) / (COAT * COAT));
+    const float cos_water = sqrt(1.0 - (1.0 - cos_air * cos_air) / (WATER * WATER));
+    return fresnel(cos_air, cos_coat, 1.0, COAT) - fresnel(cos_water, cos_coat, WATER, COAT);
+}
+
+// The surface under water, without that reflection. The picture does not tell how much of its light is that: `around`
+// is what its surroundings would give to an even coat in the open, and at least LEAST_COLOR of the light is kept.
+vec3 without_gloss(vec3 seen, vec3 d, vec3 flat_normal)
+{
+    const vec3 around = environment(reflect(d, flat_normal), vec2(1.0));
+    return max(seen - dry_gloss(clamp(-dot(d, flat_normal), 0.05, 1.0)) * around, LEAST_COLOR * seen);
+}
+
+// The share of the light along a reflected ray that comes from the surroundings: a steep drop sends rays down to the
+// surface that it sits on. Lobes of the surroundings are wide, so the change is gradual.
+float above_surface(vec3 mirrored, vec3 flat_normal) { return smoothstep(-0.15, 0.15, dot(mirrored, flat_normal)); }
+
+// What a ray shows that is reflected down to the surface from this height.
+vec3 surface_beside(vec3 mirrored, vec3 flat_normal, float height)
+{
+    const float down = max(-dot(mirrored, flat_normal), 0.1);
+    vec2 pixel;
+    const bool ahead = on_picture(vec4(position + mirrored * (height / down), 1.0), pixel);
+    return scene_light(ahead, pixel, mirrored, 1.0);
+}
+
 vec3 water_light(Path path, vec3 d, Water water)
 {
     const vec3 flat_normal = cross(along_u, along_v);
@@ -72,12 +105,16 @@ vec3 water_light(Path path, vec3 d, Water water)
         opaque || SIDE == VIRGA_GLASS_DRAW_BEFORE || (SIDE != VIRGA_GLASS_DRAW_BEHIND && dot(d, flat_normal) < 0.0);
     vec3 through = scene_light(path.ahead, path.pixel, path.out_of, path.pixels) * mix(1.0, TOTAL_SHARE, path.lost);
     if (opaque)
-        through *= mix(focus_under(path.normal, flat_normal, light_direction(flat_normal)), 1.0, film);
+        through = without_gloss(through, d, flat_normal) *
+                  mix(focus_under(path.normal, flat_normal, light_direction(flat_normal)), 1.0, film);
     else if (HAS_LAMPS) // a flat sheet shows the lamp as the picture does, and would glow all around it
         through += lamps_along(path.out_of, width) * ((1.0 - path.lost) * smoothstep(LENS.x, LENS.y, water.bend));
     // The room is dim and its reflection faint, so the finer part of its light is left out.
     vec3 mirrored = environment(path.mirrored, outside ? vec2(1.0) : vec2(1.0, 0.0)) * (outside ? 1.0 : INSIDE_SHARE);
     if (HAS_LAMPS && outside)
         mirrored += lamps_along(path.mirrored, width);
+    if (opaque)
+        mirrored = mix(surface_beside(path.mirrored, flat_normal, water.height), mirrored,
+                       above_surface(path.mirrored, flat_normal));
     return mix(through * tint_given.rgb, mirrored * gain_angle.x, path.reflects);
 }
