@@ -15,7 +15,7 @@ struct virga_ground_wetness {
     float wet;         // [0; 1] filled fraction of the pores, or coverage by a film
     float depth_mm;    // mm, of the water
     float slope2;      // variance of the slope of ripples
-    float spot;        // [0; 1] coverage by dark spots of first drops
+    float spot;        // [0; 1] how dark spots of first drops make it
 };
 
 vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell)
@@ -37,38 +37,61 @@ float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec
     return float((word >> uint((inside.y & 3) * 8 + inside.x)) & 1u);
 }
 
-// Coverage of a position by the spot of a bit. `from` is the offset from the bit's centre, in bits. Spots are nearly
-// round and off-centre. Their radii are 0.25 to 0.82; the mean area of the disks is that of a bit. A spot reaches at
-// most one bit from the bit's centre, so four bits around a position are enough.
-float virga_ground_spot(float is_set, vec2 from, vec4 chance, float edge)
+const float VIRGA_GROUND_SPOT_MEAN = 0.66; // darkness of a spot by itself, summed over it, in bits
+
+// How dark the spot of a bit makes a position, 0 to 1. `from` is the offset from the bit's centre, in bits. Spots are
+// nearly round and off-centre. Their radii are 0.35 to 0.9 times `wicked`: pores draw the water outwards, so a spot
+// is darkest in its middle and its rim is soft. A spot reaches at most one bit from the bit's centre, so four bits
+// around a position are enough. `joined`: how much what is around belongs to other spots, which it grows together with.
+// `blur`: the width over which a pixel blurs the rim, in bits.
+float virga_ground_spot(float is_set, vec2 from, vec4 chance, float wicked, float joined, float blur)
 {
-    const float radius = 0.25 + 0.57 * chance.z, oval = 1.0 + 0.8 * (0.82 - radius) * (chance.w - 0.5);
-    const vec2 off = (from - 0.2 * (chance.xy - 0.5)) * vec2(oval, 1.0 / oval);
-    return is_set * clamp((radius - length(off)) / edge + 0.5, 0.0, 1.0);
+    const float alone = 0.35 + 0.55 * chance.z, oval = 1.0 + 0.8 * (0.9 - alone) * (chance.w - 0.5);
+    const vec2 off = (from - 0.13 * (chance.xy - 0.5)) * vec2(oval, 1.0 / oval);
+    const float radius = mix(alone, 0.9, smoothstep(0.0, 0.6, joined)) * wicked;
+    return is_set * (1.0 - smoothstep(min(0.4 * radius, radius - blur), radius, length(off)));
 }
 
-// Coverage by spots. Spots of adjacent bits join without a gap. If a pixel is larger than a bit, the result is the
-// covered fraction of the cell. `pixel_cells`: size of a pixel in cells.
-float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells)
+// Mean darkness where spots cover this share of the ground: their rims are paler, until they join.
+float virga_ground_spot_mean(float share) { return share * mix(VIRGA_GROUND_SPOT_MEAN, 1.0, share); }
+
+// Part of its radius that a spot still has as it dries. `wet` is the filled fraction of the pores of all the ground
+// around, of which the spots cover `share`. A tenth of the pores under a spot is enough to darken all of it. Below
+// that the water that is left is in the middle, and the rim dries first.
+float virga_ground_spot_wicked(float wet, float share)
 {
-    const vec2 bit = at * 8.0 - 0.5;
-    const ivec2 low = ivec2(floor(bit));
-    const vec2 t = bit - vec2(low);
-    const float edge = clamp(pixel_cells * 8.0, 0.15, 1.0);
-    float near = 0.0, joined = 0.0;
-    for (int i = 0; i < 4; i++) {
-        const ivec2 corner = ivec2(i & 1, i >> 1);
-        vec4 chance;
-        const float is_set = virga_ground_spot_bit(spot_map, low_cell, cells, low + corner, chance);
-        const vec2 share = mix(1.0 - t, t, vec2(corner));
-        near = max(near, virga_ground_spot(is_set, t - vec2(corner), chance, edge));
-        joined += is_set * share.x * share.y;
-    }
-    near = max(near, smoothstep(0.5, 0.75, joined));
+    return pow(clamp(10.0 * wet / max(share, 1e-3), 0.0, 1.0), 0.25);
+}
+
+// Darkness by spots. Where spots of adjacent bits meet it is darker, and bits all around join without a gap. If a pixel
+// is larger than a bit, the result is the mean of the cell. `pixel_cells`: size of a pixel in cells. `wet` as in
+// virga_ground_wetness.
+float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells, float wet)
+{
     const ivec2 texel = (low_cell + ivec2(floor(at))) & (cells - 1);
     const int bits = bitCount(texelFetch(spot_map, ivec2(2 * texel.x, texel.y), 0).r) +
                      bitCount(texelFetch(spot_map, ivec2(2 * texel.x + 1, texel.y), 0).r);
-    return mix(near, float(bits) / 64.0, clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
+    const float share = float(bits) / 64.0, wicked = virga_ground_spot_wicked(wet, share);
+    const vec2 bit = at * 8.0 - 0.5;
+    const ivec2 low = ivec2(floor(bit));
+    const vec2 t = bit - vec2(low);
+    const float blur = clamp(pixel_cells * 8.0, 0.15, 1.0);
+    vec4 chances[4], sets, parts;
+    for (int i = 0; i < 4; i++) {
+        const ivec2 corner = ivec2(i & 1, i >> 1);
+        sets[i] = virga_ground_spot_bit(spot_map, low_cell, cells, low + corner, chances[i]);
+        const vec2 side = mix(1.0 - t, t, vec2(corner));
+        parts[i] = side.x * side.y;
+    }
+    // How much of what is around belongs to several bits: 0 for a bit by itself, 1 if all four are set.
+    const vec4 held = sets * parts;
+    const float sum = dot(held, vec4(1.0));
+    const float joined = (sum * sum - dot(held, held)) / max(1.0 - dot(parts, parts), 1e-4);
+    float dry = 1.0 - smoothstep(0.5, 1.0, sum * wicked) * smoothstep(0.6, 0.95, joined);
+    for (int i = 0; i < 4; i++)
+        dry *= 1.0 - virga_ground_spot(sets[i], t - vec2(i & 1, i >> 1), chances[i], wicked, joined, blur);
+    const float near = 1.0 - dry;
+    return mix(near, virga_ground_spot_mean(share), clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
 }
 
 // Ground that is steeper than this is a step from one surface to another.
@@ -119,7 +142,7 @@ virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ive
     const bool inside = min(low.x, low.y) >= 0 && max(low.x, low.y) < cells - 1;
     if (inside) {
         found = virga_ground_wetness(sum.x, sum.y, sum.z,
-                                     own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells));
+                                     own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells, sum.x));
     }
     return found;
 }
@@ -171,7 +194,8 @@ float virga_ground_near_share(vec2 off, float reach)
 virga_ground_wetness virga_ground_open(sampler2D far_map, int far_cells, uint material)
 {
     const vec4 texel = texelFetch(far_map, ivec2(min(material, 31u), far_cells), 0);
-    return virga_ground_wetness(texel.x, texel.y, max(texel.z, 0.0), max(-texel.z, 0.0));
+    return virga_ground_wetness(texel.x, texel.y, max(texel.z, 0.0),
+                                virga_ground_spot_mean(max(-texel.z, 0.0)));
 }
 
 // The ground at a position outside the window, as virga_ground_at. `open` is used where this map ends. `far_cell_m` is
@@ -199,5 +223,6 @@ virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 
     sum /= found;
     const vec2 inside = min(far_at, float(far_cells) - far_at);
     const float share = smoothstep(0.5, 16.0, min(inside.x, inside.y));
-    return virga_ground_mix(open, virga_ground_wetness(sum.x, sum.y, sum.z, sum.w), share);
+    const virga_ground_wetness own = virga_ground_wetness(sum.x, sum.y, sum.z, virga_ground_spot_mean(sum.w));
+    return virga_ground_mix(open, own, share);
 }

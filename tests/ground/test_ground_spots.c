@@ -18,6 +18,7 @@ typedef struct square {
     int32_t low_cell[2];
     float first[2], apart, pixel_cells;
     int32_t cells;
+    float wet;
 } square;
 
 static struct {
@@ -109,7 +110,7 @@ static int end(void **state)
 }
 
 /* Eight points per bit, over the whole map. */
-static const square whole = {.apart = 1.0f / 64, .first = {1.0f / 128, 1.0f / 128}, .cells = CELLS};
+static const square whole = {.apart = 1.0f / 64, .first = {1.0f / 128, 1.0f / 128}, .cells = CELLS, .wet = 1};
 
 static double mean_of(const float *found)
 {
@@ -119,25 +120,57 @@ static double mean_of(const float *found)
     return sum / SIDE / SIDE;
 }
 
-/* Discs of 1024 radii in [0.25; 0.82], whose mean area is 0.984 bits; 6 %: three deviations of their mean. */
-static void spots_by_themselves_cover_as_much_as_their_bits(void **state)
+/* Every fourth bit along both axes. */
+static void put_single_bits(void)
 {
-    (void)state;
     for (int i = 0; i < 1024; i++)
         set_bit(i % 32 * 4 + 1, i / 32 * 4 + 1);
     put_map();
+}
+
+/* 1 - smoothstep(0.4 R, R, r) over a disc is 0.508 of its area. With 1024 radii in [0.35; 0.9] that is 0.664 bits; 6 %:
+ * three deviations of their mean. */
+static void spots_by_themselves_are_as_dark_as_wide_pixels_have_them(void **state)
+{
+    (void)state;
+    put_single_bits();
     const double mean = 16 * mean_of(read_square(&whole));
     print_message("%.3f of a bit\n", mean);
-    assert_float_equal(mean, 0.984, 0.06);
+    assert_float_equal(mean, 0.664, 0.040);
+}
+
+/* Points of the map that are at least this dark. */
+static int count_dark(float wet, float least)
+{
+    square s = whole;
+    s.wet = wet;
+    const float *found = read_square(&s);
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        count += found[i] > least;
+    return count;
+}
+
+/* A tenth of the pores under the spots, which are a sixteenth of the ground, makes them whole; with a sixteenth of that
+ * they have half of their radii, and are still as dark in the middle. */
+static void spots_dry_from_the_rim(void **state)
+{
+    (void)state;
+    put_single_bits();
+    const float whole_wet = 0.1f / 16;
+    const int fresh = count_dark(1, 0), full = count_dark(whole_wet, 0), half = count_dark(whole_wet / 16, 0);
+    print_message("%d points, %d, and %d of them half dry\n", fresh, full, half);
+    assert_int_equal(full, fresh);
+    assert_float_equal((double)half / full, 0.25, 0.01);
+    REQUIRE(count_dark(whole_wet / 16, 0.9f) > 1024 / 2);
+    assert_int_equal(count_dark(0, 0), 0);
 }
 
 /* Otherwise it would have a straight edge there, where other bits are around a point: just before, nothing shows. */
 static void no_spot_reaches_a_bit_from_its_middle(void **state)
 {
     (void)state;
-    for (int i = 0; i < 1024; i++)
-        set_bit(i % 32 * 4 + 1, i / 32 * 4 + 1);
-    put_map();
+    put_single_bits();
     square s = whole;
     s.first[0] = s.first[1] = 0.124f / 8; /* every 32nd point from the 19th on is 0.999 bits beyond a centre */
     const float *found = read_square(&s);
@@ -180,14 +213,15 @@ static void spots_stay_where_they_are_when_the_window_moves(void **state)
     assert_true(largest < 1e-3);
 }
 
-static void wide_pixels_have_the_share_of_bits(void **state)
+static void wide_pixels_have_the_mean_of_the_cell(void **state)
 {
     (void)state;
     for (int i = 0; i < 10; i++)
         set_bit(5 * 8 + i % 8, 7 * 8 + i / 8 * 3);
     put_map();
-    const square one = {.first = {5.5f, 7.5f}, .apart = 0, .pixel_cells = 0.25f, .cells = CELLS};
-    assert_float_equal((double)read_square(&one)[0], 10.0 / 64, 1e-6);
+    const double share = 10.0 / 64;
+    const square one = {.first = {5.5f, 7.5f}, .apart = 0, .pixel_cells = 0.25f, .cells = CELLS, .wet = 1};
+    assert_float_equal((double)read_square(&one)[0], share * (0.66 + 0.34 * share), 1e-6);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
@@ -195,11 +229,12 @@ static void wide_pixels_have_the_share_of_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(spots_by_themselves_cover_as_much_as_their_bits),
+        TEST(spots_by_themselves_are_as_dark_as_wide_pixels_have_them),
+        TEST(spots_dry_from_the_rim),
         TEST(no_spot_reaches_a_bit_from_its_middle),
         TEST(bits_side_by_side_have_no_gap),
         TEST(spots_stay_where_they_are_when_the_window_moves),
-        TEST(wide_pixels_have_the_share_of_bits),
+        TEST(wide_pixels_have_the_mean_of_the_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@ layout(push_constant) uniform Square {
     float apart;       // cells, from one to the next
     float pixel_cells;
     int cells;
+    float wet;
 } square;
 
 void main()
@@ -19,5 +20,5 @@ void main()
     const uvec2 i = gl_GlobalInvocationID.xy;
     found[i.y * gl_NumWorkGroups.x * 8u + i.x] =
         virga_ground_spots(spot_map, square.low_cell, square.cells, square.first + square.apart * vec2(i),
-                           square.pixel_cells);
+                           square.pixel_cells, square.wet);
 }
