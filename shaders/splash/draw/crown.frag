@@ -57,15 +57,24 @@ float ridge_slope()
     return dot(sin(waves) * shown, vec3(0.3, 0.26, 0.2) * vec3(0.4 + 0.6 * up, 1.0, 1.0 - 0.4 * up));
 }
 
-// The background, refracted by the angle between the wall's faces, as by a prism of water. The scene's depth gives the
-// distance behind the wall.
+// How fast the wall gets thicker upwards (m/m): its foot merges with the water that it rises from, and below the rim it
+// widens into the bead. In between it is thinnest.
+float wedge(float out_of_bead, float below_bead)
+{
+    const float up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0), from_foot = 1.0 - up;
+    const float swells = smoothstep(0.0, 1.0, 1.0 - below_bead) * (1.0 - out_of_bead);
+    return 0.35 * swells - 0.6 * from_foot * from_foot * from_foot;
+}
+
+// The background, refracted by the angle between the wall's faces, as by a prism of water: towards its thick side. The
+// scene's depth gives the distance behind the wall. `lean`: how the normal turns away from the thick side.
 vec3 through_wall(vec3 d, vec3 lean)
 {
     if (view.color_given == 0u)
         return around_of(d);
     const float stored = HAS_DEPTH ? buffer_depth(gl_FragCoord.xy) : view.far_depth;
     const float beyond = stored == view.far_depth ? 1.0 : clamp(1.0 - sheet.w / view_depth(stored), 0.0, 1.0);
-    const vec2 bent = 0.333 * beyond / view.pixel_angle *
+    const vec2 bent = -0.333 * beyond / view.pixel_angle *
                       vec2(dot(lean, normalize(to_vec(view.right))), dot(lean, normalize(to_vec(view.up))));
     const vec2 low = vec2(view.viewport[0], view.viewport[1]) + 0.5;
     const vec2 pixel = clamp(gl_FragCoord.xy + bent, low, low + vec2(view.viewport[2], view.viewport[3]) - 1.0);
@@ -80,21 +89,29 @@ void main()
     n = dot(n, d) > 0.0 ? -n : n;
     // 0 where the bead begins, 1 at the rim. It is drawn at least a pixel thick. A disk has no bead.
     const bool disk = rim_data.w <= 0.0;
-    const float min_bead_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(size.y, min_bead_m);
+    // Water gathers in the fingers, most of all at their ends, which round into the drops that leave them.
+    const bool has_fingers = !disk && rim_data.z > 0.0;
+    const float finger = 0.5 + 0.5 * cos(rim_data.x), finger2 = finger * finger;
+    const float gathers = has_fingers ? 0.7 + 0.4 * finger2 + 0.5 * finger2 * finger2 * finger2 : 1.0;
+    const float min_bead_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(gathers * size.y, min_bead_m);
     const float out_of_bead = disk ? 0.0 : clamp(1.0 - ends.below / bead_m, 0.0, 1.0);
     const float pixel_m = max(fwidth(ends.below), 1e-9),
                 edge_cover = disk ? 1.0 : clamp(ends.below / pixel_m + 0.5, 0.0, 1.0);
-    // The face of the bead is round, as that of a rod at the end of the sheet.
-    const bool has_fingers = !disk && rim_data.z > 0.0;
-    const vec3 lean = ridge_slope() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n));
+    const float thickens = has_fingers ? wedge(out_of_bead, clamp(0.5 * ends.below / bead_m - 0.5, 0.0, 1.0)) : 0.0;
+    const vec3 lean = ridge_slope() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n)) -
+                      thickens * normalize(upward);
     n = normalize(n + lean);
-    const float across = (1.7 * out_of_bead - 0.7) * smoothstep(0.0, 0.3, out_of_bead);
+    // The film runs into the bead without an edge; its face is round, as that of a rod at the end of the sheet.
+    const float across = smoothstep(0.15, 1.0, out_of_bead) - 0.6 * out_of_bead * (1.0 - out_of_bead);
     n = n * sqrt(1.0 - across * across) + ends.outward * across;
     n = normalize(n - 1.01 * d * max(dot(n, d), 0.0));
-    const float cosine = -dot(n, d), mirror = fresnel(cosine);
-    // Two parallel faces do not refract, so the wall is clear except for its ridges. The rim is a bead, and at the
-    // sides the view is along the wall.
-    const float rim = disk ? smoothstep(0.7, 1.0, sheet.x) : smoothstep(0.0, 0.4, out_of_bead) * size.y / bead_m;
+    const float cosine = -dot(n, d), face = fresnel(cosine);
+    // A film has two faces: 2 F / (1 + F) with the light that is mirrored between them. A bead has one.
+    const float mirror = mix(2.0 * face / (1.0 + face), face, disk ? 1.0 : out_of_bead);
+    // Two parallel faces do not refract, so the wall is clear except for its ridges and wedges. The rim is a bead, and
+    // at the sides the view is along the wall.
+    const float bead = smoothstep(0.0, 0.8, out_of_bead) * min(gathers * size.y / bead_m, 1.0);
+    const float rim = disk ? smoothstep(0.7, 1.0, sheet.x) : bead;
     const float edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
     const float thick = clamp(0.05 + 0.12 * sheet.x * sheet.x + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
     const vec3 side = n + d * cosine; // across the line of sight

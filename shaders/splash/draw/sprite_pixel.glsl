@@ -49,7 +49,7 @@ bool is_cone()
     return shape.y > 4.0 * shape.x;
 }
 
-#define CONE_FOOT 0.08 // of its height
+#define CONE_FOOT 0.25 // of its height
 
 float pile_half_width()
 {
@@ -68,7 +68,7 @@ float pile_cover()
     const float ends =
         smoothstep(0.0, 1.0, (sprite_position.y + 0.5) / foot) * clamp(shape.z + 0.5 - sprite_position.y, 0.0, 1.0);
     const float half_width = pile_half_width(), level = half_width / max(shape.x, 1e-3);
-    const float flat_foot = is_cone() ? 1.0 - smoothstep(1.5, 6.0, level) : 1.0;
+    const float flat_foot = is_cone() ? 1.0 - smoothstep(3.0, 10.0, level) : 1.0;
     return clamp(half_width + 0.5 - abs(sprite_position.x), 0.0, 1.0) * tip * ends * flat_foot;
 }
 
