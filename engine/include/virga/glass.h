@@ -486,7 +486,9 @@ typedef struct virga_glass_settings {
     /* [0; 1] transmission of the glass (physical); drops show it too. Default 1, 1, 1. */
     float tint[3];
 
-    /* The surface is not glass: drops show what is under them, displaced. Default false. */
+    /* The surface is not glass: drops show what is under them, displaced, and without the gloss that it has when dry:
+     * that of a coat with an index of 1.5, such as paint or wax, under the surroundings of `lighting`. At least two
+     * fifths of its light are kept. Steep rims of drops mirror the surface. Default false. */
     bool opaque;
 
     /* [0; 100] multiplies what drops reflect. Default 1. */
