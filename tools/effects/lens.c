@@ -112,6 +112,7 @@ static const lens_case cases[] = {
 };
 
 static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
+static const uint32_t game_sizes[][2] = {{1280, 720}, {1920, 1080}, {3840, 2160}}; /* of the rows in place alone */
 
 /* What a lens reads: a street of lamps, and drops on a pane before it. */
 typedef struct pictures {
@@ -444,7 +445,8 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     bench_forget_model(b);
     const double start = progress_now();
     size_t runs = 0;
-    while (good && runs < RUNS && (!runs || progress_now() - start < ENOUGH_S)) {
+    const size_t most = b->model ? 1 : RUNS; /* counts are the same in each */
+    while (good && runs < most && (!runs || progress_now() - start < ENOUGH_S)) {
         good = time_frame(b, NULL, p, row, &empty, runs) && time_frame(b, lens, p, row, &times, runs);
         for (size_t i = 0; i < PASSES; i++) {
             char name[32];
@@ -488,27 +490,40 @@ static bool measure_fill(bench *b, const pictures *p, fill_cost *cost)
     return cost->waited > 0 || bench_fail(b, "fill");
 }
 
+static bool measure_size(bench *b, const uint32_t size[2], bool in_place)
+{
+    pictures p = {.width = size[0], .height = size[1]};
+    fill_cost fill = {0};
+    copy_cost copy = {0};
+    bool good = open_pictures(b, &p) && measure_fill(b, &p, &fill);
+    if (good)
+        printf("%u x %u, a fill takes %.3f ms, processors %.3f ms\n", p.width, p.height, fill.waited, fill.worked);
+    for (size_t k = 0; good && k < sizeof cases / sizeof cases[0] && !interrupt_requested(); k++)
+        if (!in_place || cases[k].in_place)
+            good = measure(b, &cases[k], &p, &fill, &copy);
+    close_pictures(b, &p);
+    return good;
+}
+
+static const option_row bench_rows[] = {
+    {"--in-place", 0, NULL, "lens: measure the rows in place only, also at 1920 x 1080", false},
+};
+
 static bool run(bench *b, const options *parsed)
 {
-    (void)parsed;
+    const bool in_place = options_value(parsed, "--in-place");
+    const uint32_t(*size)[2] = in_place ? game_sizes : sizes;
     printf("a street of lamps behind a pane with %d drops in focus; blur as a share of the picture's height\n", DROPS);
-    bool good = true;
-    for (size_t i = 0; good && i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++) {
-        pictures p = {.width = sizes[i][0], .height = sizes[i][1]};
-        fill_cost fill = {0};
-        copy_cost copy = {0};
-        good = open_pictures(b, &p) && measure_fill(b, &p, &fill);
-        if (good)
-            printf("%u x %u, a fill takes %.3f ms, processors %.3f ms\n", p.width, p.height, fill.waited, fill.worked);
-        for (size_t k = 0; good && k < sizeof cases / sizeof cases[0] && !interrupt_requested(); k++)
-            good = measure(b, &cases[k], &p, &fill, &copy);
-        close_pictures(b, &p);
-    }
-    return good;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0] && !interrupt_requested(); i++)
+        if (!measure_size(b, size[i], in_place))
+            return false;
+    return true;
 }
 
 static const tool_bench lens_bench = {
     .help = "focus as in the paper and as of a lens, at half and full resolution, three sizes\n",
+    .rows = bench_rows,
+    .row_count = sizeof bench_rows / sizeof bench_rows[0],
     .run = run,
 };
 

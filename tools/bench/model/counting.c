@@ -22,6 +22,7 @@ typedef struct module_code {
 
 typedef struct resource_size {
     double bytes, texel_bytes; /* texel_bytes 0: a buffer */
+    uint32_t layers;           /* of an image */
 } resource_size;
 
 typedef struct set_contents {
@@ -78,7 +79,7 @@ static double texel_bytes(VkFormat format)
     }
 }
 
-/* A view is as large as what it is a view of. */
+/* A view of a buffer is as large as the buffer. */
 static void keep_size_of_view(uint64_t view, uint64_t of)
 {
     const resource_size *size = handle_map_find(&counting.resources, of);
@@ -89,7 +90,7 @@ static void keep_size_of_view(uint64_t view, uint64_t of)
 void counting_know_image(VkImageView view, VkFormat format, VkExtent3D extent)
 {
     const double bytes = texel_bytes(format);
-    const resource_size size = {bytes * extent.width * extent.height * extent.depth, bytes};
+    const resource_size size = {bytes * extent.width * extent.height * extent.depth, bytes, 1};
     keep(&counting.resources, (uint64_t)view, &size, sizeof size);
 }
 
@@ -116,7 +117,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImag
                                                    const VkAllocationCallbacks *with, VkImage *made)
 {
     const VkResult result = DRIVER(CreateImage)(device, info, with, made);
-    resource_size size = {.texel_bytes = texel_bytes(info->format)};
+    resource_size size = {.texel_bytes = texel_bytes(info->format), .layers = info->arrayLayers};
     for (uint32_t level = 0; level < info->mipLevels; level++)
         size.bytes += size.texel_bytes * (info->extent.width >> level) * (info->extent.height >> level) *
                       info->extent.depth * info->arrayLayers;
@@ -129,8 +130,15 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const V
                                                         const VkAllocationCallbacks *with, VkImageView *made)
 {
     const VkResult result = DRIVER(CreateImageView)(device, info, with, made);
-    if (!result)
-        keep_size_of_view((uint64_t)*made, (uint64_t)info->image);
+    const resource_size *image = result ? NULL : handle_map_find(&counting.resources, (uint64_t)info->image);
+    if (image) {
+        resource_size size = *image;
+        if (info->subresourceRange.layerCount < size.layers) {
+            size.bytes *= (double)info->subresourceRange.layerCount / size.layers;
+            size.layers = info->subresourceRange.layerCount;
+        }
+        keep(&counting.resources, (uint64_t)*made, &size, sizeof size);
+    }
     return result;
 }
 
