@@ -185,6 +185,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
     [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
+    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -219,9 +220,13 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
+#define NARROW_SHARED_BYTES 24640 /* of shared memory, in shaders/lens/narrow.comp */
+
 bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings)
 {
-    return lens->def.half_resolution && !lens->base.context->for_software &&
+    const virga_context *context = lens->base.context;
+    return lens->def.half_resolution && !context->for_software &&
+           context->properties.limits.maxComputeSharedMemorySize >= NARROW_SHARED_BYTES &&
            settings->max_radius_px <= 2 * VIRGA_LENS_FINE;
 }
 
@@ -230,7 +235,7 @@ static uint32_t wanted_draws(const void *object, const void *settings)
 {
     const virga_lens *lens = object;
     (void)settings;
-    return lens->def.in_place ? 1u << LENS_DRAW_TILES | 1u << LENS_DRAW_LAYERS
+    return lens->def.in_place ? 1u << LENS_DRAW_TILES | 1u << LENS_DRAW_LAYERS | 1u << LENS_DRAW_SOFT
                               : 1u << LENS_DRAW_PICTURE | 1u << LENS_DRAW_PART;
 }
 
@@ -250,7 +255,7 @@ static bool form_used(const void *object, const void *given, const virga_effect_
     if (member == AT(combine) && lens->def.in_place)
         return false;
     if (member == AT(narrow))
-        return lens_is_narrow(lens, settings);
+        return lens_is_narrow(lens, settings) && (lens->def.in_place || !(form & VIRGA_LENS_ALONE));
     if (member != AT(tile) && member != AT(combine))
         return true;
     const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;

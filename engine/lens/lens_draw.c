@@ -123,6 +123,7 @@ static void fill_lens(const virga_lens *lens, const virga_view *view, double tim
     const double aperture_m = settings->aperture_f > 0 ? (double)settings->focal_m / (double)settings->aperture_f : 0;
     const double pixels = 0.5 * (double)view->viewport[3] * fabs((double)view->clip_from_view[5]);
     out->circle_px_m = (float)(0.5 * aperture_m * pixels);
+    out->circle_per_depth = out->depth_given ? out->circle_px_m / out->depth_b : 0;
     out->max_radius = settings->max_radius_px / (float)out->step;
     if (!lens->def.circles)
         out->max_radius = fminf(out->max_radius, VIRGA_LENS_MAX_RADIUS);
@@ -166,6 +167,28 @@ static void find_sharp(virga_lens_gpu *view)
     view->all_sharp = sharp_scene && view->sharp_layers == (1u << view->layers) - 1;
 }
 
+/* How many layers have to be looked at for their depths: up to the last one that has a depth image. */
+static uint32_t depth_layers(const virga_lens_gpu *view)
+{
+    uint32_t layers = 0;
+    for (uint32_t i = 0; i < view->layers; i++)
+        if (view->layer_inv_m[i] <= 0 && i + 1 != view->on_scene)
+            layers = i + 1;
+    return layers;
+}
+
+/* Whether one pass gathers. */
+static bool is_narrow(const virga_lens *lens, const virga_lens_gpu *view)
+{
+    return !view->on_scene && lens_is_narrow(lens, &lens->settings);
+}
+
+/* Whether it is the only one for the scene. Layers with depths need to know what reaches each tile. */
+static bool is_alone(const virga_lens *lens, const virga_lens_gpu *view)
+{
+    return lens->def.in_place && !view->all_sharp && is_narrow(lens, view) && !depth_layers(view);
+}
+
 static virga_result push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
                               uint32_t layer_count, double time_s, virga_lens_gpu *filled, uint32_t *index,
                               uint32_t *offset)
@@ -180,13 +203,15 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
     find_sharp(filled);
     const virga_result result = virga_effect_push_view(&lens->base, "virga_lens_prepare", &lens->view_ring, filled,
                                                        sizeof *filled, index, offset);
+    const uint32_t tiles = filled->tile_columns * filled->tile_rows;
     if (!result)
         lens->prepared[lens->base.slot] = (lens_prepared){.time_s = time_s,
                                                           .has_time = true,
                                                           .width = filled->width,
                                                           .height = filled->height,
                                                           .layers = layer_count,
-                                                          .all_sharp = filled->all_sharp};
+                                                          .all_sharp = filled->all_sharp,
+                                                          .tiles = is_alone(lens, filled) ? tiles : 0};
     return result;
 }
 
@@ -211,6 +236,10 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
     bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
         lens->def.circles ? out : in_general(lens->blocks, context->nearest);
+    bound[LENS_BIND_FAR] = lens->def.circles ? out
+                                             : (virga_bound){.view = lens->fields->layer_views[VIRGA_LENS_FAR],
+                                                             .image_layout = VK_IMAGE_LAYOUT_GENERAL,
+                                                             .sampler = context->linear};
     if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
         bound[LENS_BIND_FOCUS] =
             (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};
@@ -251,16 +280,6 @@ static bool is_linear(const virga_lens_gpu *view)
 static uint32_t layers_form(const virga_lens_gpu *view, bool other)
 {
     return view->layers + (other ? VIRGA_LENS_LAYERS + 1 : 0);
-}
-
-/* How many layers have to be looked at for their depths: up to the last one that has a depth image. */
-static uint32_t depth_layers(const virga_lens_gpu *view)
-{
-    uint32_t layers = 0;
-    for (uint32_t i = 0; i < view->layers; i++)
-        if (view->layer_inv_m[i] <= 0 && i + 1 != view->on_scene)
-            layers = i + 1;
-    return layers;
 }
 
 /* A pass over one list of tiles. */
@@ -347,15 +366,39 @@ static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     }
 }
 
-/* Reaches, lists and the gather in one pass. */
+/* Reaches, lists and the gather in one pass, or tiles as well. */
 static void record_narrow(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
+    enum { TILES = 2 }; /* of a workgroup, beside each other */
     virga_context *context = lens->base.context;
-    const uint32_t form = shaped | (is_linear(view) ? VIRGA_LENS_NARROW_LINEAR : 0);
+    const uint32_t form =
+        shaped | (is_linear(view) ? VIRGA_LENS_NARROW_LINEAR : 0) | (is_alone(lens, view) ? VIRGA_LENS_ALONE : 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.narrow");
-    virga_dispatch_2d(context, cmd, lens->narrow[form], view->tile_columns, view->tile_rows);
+    virga_dispatch_2d(context, cmd, lens->narrow[form], (view->tile_columns + TILES - 1) / TILES, view->tile_rows);
     virga_indirect_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
+}
+
+/* The aperture as an image. It is not waited for. */
+static void record_aperture(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
+{
+    const uint32_t radius = view->levels ? VIRGA_LENS_MAX_RADIUS : (uint32_t)ceilf(view->max_radius) + 1;
+    virga_dispatch_2d(lens->base.context, cmd, lens->aperture_reach, virga_groups_of(VIRGA_LENS_APERTURE, GROUP),
+                      virga_groups_of(VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0), GROUP));
+}
+
+/* The fields, if one pass makes them. Without layers it needs no image of an aperture that is a disc. */
+static void record_alone(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
+{
+    virga_context *context = lens->base.context;
+    if (shaped || view->layers) {
+        const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.aperture");
+        record_aperture(lens, cmd, view, shaped);
+        virga_compute_barrier(context, cmd);
+        virga_pass_end(context, cmd, scope);
+    }
+    record_narrow(lens, cmd, view, shaped);
+    record_layers(lens, cmd, view, shaped);
 }
 
 /* The fields: what is out of focus, for each texel. */
@@ -363,14 +406,16 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
 {
     virga_context *context = lens->base.context;
     const uint32_t shaped = view->blades > 0 || view->cats_eye > 0 ? VIRGA_LENS_SHAPED : 0;
-    const uint32_t radius = view->levels ? VIRGA_LENS_MAX_RADIUS : (uint32_t)ceilf(view->max_radius) + 1;
+    if (is_alone(lens, view)) {
+        record_alone(lens, cmd, view, shaped);
+        return;
+    }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
-    virga_dispatch_2d(context, cmd, lens->aperture_reach, virga_groups_of(VIRGA_LENS_APERTURE, GROUP),
-                      virga_groups_of(VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0), GROUP));
+    record_aperture(lens, cmd, view, shaped);
     virga_dispatch_2d(context, cmd, lens->tile[lens_layer_form(lens, depth_layers(view))], view->tile_columns,
                       view->tile_rows);
     virga_compute_barrier(context, cmd);
-    if (!view->on_scene && lens_is_narrow(lens, &lens->settings)) {
+    if (is_narrow(lens, view)) {
         virga_pass_end(context, cmd, scope);
         record_narrow(lens, cmd, view, shaped);
         record_layers(lens, cmd, view, shaped);
@@ -402,6 +447,8 @@ static void record_circles(virga_lens *lens, VkCommandBuffer cmd, const virga_le
 static void record_focus(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
 {
     virga_context *context = lens->base.context;
+    if (!view->follow && lens->settings.style == VIRGA_LENS_STYLE_PHYSICAL && is_alone(lens, view))
+        return; /* the pass over the scene keeps it */
     virga_dispatch(context, cmd, lens->focus, 1);
     if (view->follow)
         virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
@@ -463,6 +510,8 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
 static const uint32_t tile_forms[] = {BLURRED_FORMS(0), TILE_FORMS(1), TILE_FORMS(VIRGA_LENS_LAYERS)};
 static const uint32_t sharp_forms[] = {FORM_OF(VIRGA_LENS_ALL_SHARP, 1),
                                        FORM_OF(VIRGA_LENS_ALL_SHARP, VIRGA_LENS_LAYERS)};
+static const uint32_t soft_forms[] = {FORM_OF(VIRGA_LENS_TILES_SOFT, 0), FORM_OF(VIRGA_LENS_TILES_SOFT, 1),
+                                      FORM_OF(VIRGA_LENS_TILES_SOFT, VIRGA_LENS_LAYERS)};
 
 const virga_effect_draw lens_draws[LENS_DRAWS] = {
     [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
@@ -471,6 +520,8 @@ const virga_effect_draw lens_draws[LENS_DRAWS] = {
                         .replace = true},
     [LENS_DRAW_TILES] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), tile_forms,
                          VIRGA_ROWS(tile_forms), .no_depth = true},
+    [LENS_DRAW_SOFT] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), soft_forms,
+                        VIRGA_ROWS(soft_forms), .no_depth = true, .replace = true},
     [LENS_DRAW_LAYERS] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_overlay_frag), sharp_forms,
                           VIRGA_ROWS(sharp_forms), .no_depth = true},
 };
@@ -521,6 +572,16 @@ static void draw_viewport(virga_lens *lens, const draw_call *to, const virga_pip
     context->vk.CmdDraw(to->cmd, 3, 1, 0, 0);
 }
 
+/* Tiles of a kind, from the entries of all. */
+static void draw_of_all(virga_lens *lens, const draw_call *to, const virga_pipeline *pipeline, uint32_t kind)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t pushed = kind | VIRGA_LENS_EVERY;
+    virga_bind_pipeline(context, to->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    context->vk.CmdPushConstants(to->cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pushed, &pushed);
+    context->vk.CmdDraw(to->cmd, VIRGA_LENS_TILE_VERTICES * lens->prepared[lens->base.slot].tiles, 1, 0, 0);
+}
+
 /* A list of tiles. The device wrote how many there are. */
 static void draw_tiles(virga_lens *lens, const draw_call *to, const virga_pipeline *pipeline, uint32_t kind)
 {
@@ -552,6 +613,33 @@ static virga_result leave_as_it_is(virga_lens *lens, const draw_call *to)
     return VIRGA_OK;
 }
 
+/* The form of a row for so many layers. */
+static const virga_pipeline *const *of_layers(const draw_call *to, uint32_t row, uint32_t many)
+{
+    static const uint32_t first_forms[] = {0, 2, 5}; /* of tile_forms */
+    return pipelines_of(to, row) + (row == LENS_DRAW_TILES ? first_forms[many] : many);
+}
+
+/* After one pass made the fields: tiles that are blended, whether something is in front of the focus there or not, then
+ * those in focus, which have layers only, then those that overwrite the target. */
+static virga_result draw_all_tiles(virga_lens *lens, const draw_call *to, uint32_t many)
+{
+    const virga_pipeline *const *blended = of_layers(to, LENS_DRAW_TILES, many);
+    const virga_pipeline *const *soft = of_layers(to, LENS_DRAW_SOFT, many);
+    virga_result result = virga_pipelines_ready(blended, many ? VIRGA_LENS_TILE_KINDS : 1);
+    if (!result)
+        result = virga_pipelines_ready(soft, 1);
+    if (result)
+        return result;
+    const virga_pass_scope scope = begin_draw(lens, to, lens_draws[LENS_DRAW_TILES].name);
+    draw_of_all(lens, to, blended[VIRGA_LENS_TILES_BLURRED], VIRGA_LENS_TILES_BLURRED);
+    if (many)
+        draw_of_all(lens, to, blended[VIRGA_LENS_TILES_SHARP], VIRGA_LENS_TILES_SHARP);
+    draw_of_all(lens, to, *soft, VIRGA_LENS_TILES_SOFT);
+    virga_pass_end(lens->base.context, to->cmd, scope);
+    return VIRGA_OK;
+}
+
 /* Blends over the target what is out of focus, and layers. */
 static virga_result draw_in_place(virga_lens *lens, draw_call *to)
 {
@@ -562,14 +650,15 @@ static virga_result draw_in_place(virga_lens *lens, draw_call *to)
     virga_result result = check_draw(lens, to);
     if (result)
         return result;
-    static const uint32_t first_forms[] = {0, 2, 5}; /* of tile_forms, by how many layers there are */
     const lens_prepared *seen = &lens->prepared[lens->base.slot];
     const uint32_t many = seen->layers > 1 ? 2 : seen->layers;
     const uint32_t kinds = seen->all_sharp ? many > 0 : many ? VIRGA_LENS_TILE_KINDS : VIRGA_LENS_TILES_SHARP;
     if (!kinds)
         return leave_as_it_is(lens, to);
-    const virga_pipeline *const *pipelines = seen->all_sharp ? pipelines_of(to, LENS_DRAW_LAYERS) + many - 1
-                                                             : pipelines_of(to, LENS_DRAW_TILES) + first_forms[many];
+    if (seen->tiles)
+        return draw_all_tiles(lens, to, many);
+    const virga_pipeline *const *pipelines =
+        seen->all_sharp ? pipelines_of(to, LENS_DRAW_LAYERS) + many - 1 : of_layers(to, LENS_DRAW_TILES, many);
     result = virga_pipelines_ready(pipelines, kinds);
     if (result)
         return result;

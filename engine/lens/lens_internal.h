@@ -28,6 +28,7 @@ enum {
     LENS_BIND_FOCUS,
     LENS_BIND_BLOCKS,
     LENS_BIND_BLOCKS_WRITTEN,
+    LENS_BIND_FAR,
     LENS_BINDINGS,
 };
 
@@ -36,7 +37,7 @@ enum {
     LENS_SAMPLES = 4,     /* by VIRGA_LENS_LINEAR and _ON_SCENE */
     LENS_GATHERS = 8,     /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
     LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
-    LENS_NARROWS = 4,     /* by VIRGA_LENS_SHAPED and _NARROW_LINEAR */
+    LENS_NARROWS = 8,     /* by VIRGA_LENS_SHAPED, _NARROW_LINEAR and _ALONE */
 };
 
 /* What is known of the newest prepare of each view besides virga_effect_view. */
@@ -45,6 +46,7 @@ typedef struct lens_prepared {
     bool has_time;
     uint32_t width, height, layers;
     bool all_sharp; /* nothing is out of focus, as far as is known without the pictures */
+    uint32_t tiles; /* with an entry for each in place of lists; 0: there are lists, see shaders/lens/narrow.comp */
 } lens_prepared;
 
 struct virga_lens {
@@ -85,7 +87,7 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
 bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings);
 
 /* ---- lens_draw.c */
-enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAW_TILES, LENS_DRAW_LAYERS, LENS_DRAWS };
+enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAW_TILES, LENS_DRAW_LAYERS, LENS_DRAW_SOFT, LENS_DRAWS };
 extern const virga_effect_draw lens_draws[LENS_DRAWS];
 virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call);

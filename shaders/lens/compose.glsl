@@ -4,6 +4,7 @@
 // images; it changes over where the circle of confusion grows from half a pixel to two.
 // The includer has lens.glsl, pixels.glsl, layers.glsl, and says what is left out:
 // ALL_SHARP: nothing is out of focus; NO_NEAR: nothing of the scene in front of the focus; NO_FAR: nothing of it.
+// SOFT: all of it is from the fields, and neither color nor depth is read.
 // With BENEATH, what is in focus lies in the target already. It is left out here, as a pixel without color and
 // coverage. The result is linear in it, so it is what has to be blended over the target.
 #ifndef BENEATH
@@ -42,6 +43,11 @@ vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 // not count as near field, which hides layers: where a layer has something, it is in front of this pixel.
 void keep_sharp_part(vec4 sharp, float share, inout vec4 near, inout vec4 far)
 {
+    if (share <= 0.0) { // here may be no field
+        near = vec4(0.0);
+        far = sharp;
+        return;
+    }
     const float hidden = share * near.a; // by the near field
     far = hidden < 1.0 ? mix(sharp, far, share * (1.0 - near.a) / (1.0 - hidden)) : far;
     near *= share;
@@ -60,13 +66,15 @@ void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float n
     near_px = 0.0;
     if (ALL_SHARP || NO_FAR)
         return;
-    const float radius = view.depth_given != 0u
+    const float radius = !SOFT && view.depth_given != 0u
                              ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP) : 0.0;
     if (!NO_NEAR) {
         near = before;
         near_px = behind.a * float(STEP);
     }
     far = vec4(behind.rgb, 1.0);
+    if (SOFT)
+        return;
     if (radius >= 0.0)
         far = blurred(sharp, far, radius);
     else if (HALVED)

@@ -232,10 +232,18 @@ field_sum scene_before(gatherer to, out float circle)
     return sum;
 }
 
+// Draws in place read near fields in tiles that have them, and between them and the rim of the tile beside it.
+bool near_is_read(ivec2 texel)
+{
+    const ivec2 in_tile = texel & (VIRGA_LENS_TILE - 1);
+    return !IN_PLACE || NEAR || any(equal(in_tile, ivec2(0))) || any(equal(in_tile, ivec2(VIRGA_LENS_TILE - 1)));
+}
+
 void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 {
     imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), far);
-    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
+    if (near_is_read(texel))
+        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
     if (ON_SCENE)
         imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
 }

@@ -46,6 +46,27 @@ float circle(float inv_m)
 }
 #endif
 
+#ifndef STATE_WRITTEN
+// The same for values of the depth buffer, in which it is linear, too. One function with one rounding: passes have to
+// agree to the last bit.
+struct depth_line {
+    float slope, at_infinity, most; // texels
+};
+
+depth_line line_of_depths()
+{
+    const float texels = HALVED ? 0.5 : 1.0;
+    const float at_infinity = view.depth_given != 0u ? view.circle_px_m * focus_inv_m() * texels : 0.0;
+    return depth_line(-view.circle_per_depth * texels, at_infinity, min(at_infinity, view.max_radius));
+}
+
+vec4 depth_circles(depth_line line, vec4 stored)
+{
+    const vec4 r = fma(stored + view.depth_a, vec4(line.slope), vec4(line.at_infinity));
+    return clamp(r, vec4(-view.max_radius), vec4(line.most));
+}
+#endif
+
 // How much of a pixel comes from the blurred images. `radius` in px.
 float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
 

@@ -11,6 +11,7 @@
 #define ALL_SHARP (view.all_sharp != 0u)
 #define NO_NEAR false
 #define NO_FAR false
+const bool SOFT = false;
 #include "compose.glsl"
 #include "gpu/encode.glsl"
 

@@ -9,8 +9,9 @@
 
 layout(set = 0, binding = 5) uniform sampler2D scene_picture;
 
-vec3 scene_color(ivec2 pixel)
+vec3 scene_light(vec3 stored)
 {
-    const vec3 stored = finite(texelFetch(scene_picture, pixel, 0).rgb);
-    return SCENE_LINEAR ? stored : host_color(stored, view.color_given);
+    return SCENE_LINEAR ? finite(stored) : host_color(finite(stored), view.color_given);
 }
+
+vec3 scene_color(ivec2 pixel) { return scene_light(texelFetch(scene_picture, pixel, 0).rgb); }

@@ -1,6 +1,10 @@
 // spread.glsl - 1 / area of the aperture's image on the grid of texels: the sum of its coverage. The table has the
 // areas of radii (i / last)^2 x largest radius: they are close together where a texel more or less matters. It is in
 // the image of the aperture, see aperture.comp.
+// With AREAS_OF_VIEW it reads the words of the block itself, for a pass that has no use for that image.
+#ifdef AREAS_OF_VIEW
+float area_at(int entry) { return view.areas[entry]; }
+#else
 #include "aperture_image.glsl"
 
 float area_at(int entry)
@@ -8,6 +12,7 @@ float area_at(int entry)
     const ivec2 texel = ivec2(entry % VIRGA_LENS_APERTURE, VIRGA_LENS_APERTURE + entry / VIRGA_LENS_APERTURE);
     return texelFetch(aperture_image, texel, 0).r;
 }
+#endif
 
 float spread(float radius)
 {

@@ -13,24 +13,19 @@ struct texel_circles {
     float farthest; // of the pixels
 };
 
-vec4 circles(vec4 stored)
-{
-    return vec4(circle(inverse_depth(stored.x)), circle(inverse_depth(stored.y)), circle(inverse_depth(stored.z)),
-                circle(inverse_depth(stored.w)));
-}
-
 float stored_at(ivec2 pixel) { return texelFetch(scene_depth, pixel, 0).r; }
 
 vec4 circles_at(ivec2 texel)
 {
     if (view.depth_given == 0u)
         return vec4(0.0);
+    const depth_line line = line_of_depths();
     const ivec2 low = pixel_of(texel, 0u), high = pixel_of(texel, 3u);
     if (!HALVED)
-        return vec4(circle(inverse_depth(stored_at(low))));
+        return depth_circles(line, vec4(stored_at(low)));
     if (FOR_GPU && high == low + 1) // all in the picture: four depths at once
-        return circles(textureGather(scene_depth, vec2(high) / vec2(textureSize(scene_depth, 0))).wzxy);
-    return circles(vec4(stored_at(low), stored_at(ivec2(high.x, low.y)), stored_at(ivec2(low.x, high.y)),
+        return depth_circles(line, textureGather(scene_depth, vec2(high) / vec2(textureSize(scene_depth, 0))).wzxy);
+    return depth_circles(line, vec4(stored_at(low), stored_at(ivec2(high.x, low.y)), stored_at(ivec2(low.x, high.y)),
                         stored_at(high)));
 }
 
@@ -41,10 +36,12 @@ texel_circles circles_of(vec4 of_pixels)
     const float nearest = min(less.x, less.y), per_radius = 1.0 / max(abs(nearest), 1.0);
     of.of_pixels = of_pixels;
     of.farthest = max(more.x, more.y);
-    precise const vec4 weights = max(1.0 - (of_pixels - nearest) * per_radius, 0.0);
-    precise const vec4 radii = weights * of_pixels;
+    // 1 - (r - nearest) / radius, by fused operations, which are the same in every pass.
+    precise const vec4 weights = max(fma(of_pixels, vec4(-per_radius), vec4(fma(nearest, per_radius, 1.0))), 0.0);
     precise const float weight = weights.x + weights.y + weights.z + weights.w;
-    precise const float radius = radii.x + radii.y + radii.z + radii.w;
+    precise const float first = weights.x * of_pixels.x;
+    precise const float radius =
+        fma(weights.w, of_pixels.w, fma(weights.z, of_pixels.z, fma(weights.y, of_pixels.y, first)));
     of.weights = weights;
     of.weight = weight;
     of.radius = HALVED ? radius / weight : of_pixels.x;

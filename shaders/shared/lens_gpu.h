@@ -52,6 +52,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_NO_NEAR       4   /* gather: nothing in front of the focus is out of focus */
 #define VIRGA_LENS_LINEAR        1   /* sample: the host's picture is linear light */
 #define VIRGA_LENS_NARROW_LINEAR 2   /* narrow: likewise */
+#define VIRGA_LENS_ALONE         4   /* narrow: no pass is before it, see shaders/lens/narrow.comp */
 
 /* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
  * read. */
@@ -77,6 +78,14 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_COMBINE_KINDS 4
 #define VIRGA_LENS_COMBINE_FORMS 8 /* from the fifth on the host's picture is linear light */
 
+/* (in place, narrow) Tiles of which every pixel comes from the fields: they are drawn without what is beneath. */
+#define VIRGA_LENS_TILES_SOFT 4
+
+/* (narrow) An entry for every tile in place of lists: its kind, and bits beside it. */
+#define VIRGA_LENS_KIND_MASK 255u
+#define VIRGA_LENS_HAS_NEAR  256u /* circles of confusion from in front of the focus reach it */
+#define VIRGA_LENS_EVERY     256u /* in what a draw has pushed, beside the kind: there are such entries, and no lists */
+
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
 #define VIRGA_LENS_NEAR        1
@@ -98,6 +107,7 @@ struct virga_lens_gpu {
     uint tile_rows;         /* tiles */
     uint step;              /* px along a texel's side: 1, or 2 at half resolution */
     float circle_px_m;      /* px m, radius of the circle of confusion at 1/m away from the focus */
+    float circle_per_depth; /* px, the same for one in the depth buffer: circle_px_m / depth_b */
     float max_radius;       /* texels */
     uint levels;            /* of blocks that radii up to it need */
     float edge_area;        /* what the soft edge of a block's disc adds to its area, see shaders/lens/levels.glsl */
@@ -156,7 +166,7 @@ struct virga_lens_list_gpu {
 VIRGA_ASSERT_SIZE(virga_lens_tile_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_lens_list_gpu, vertices, 20);
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 164 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 168 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif

@@ -212,11 +212,12 @@ static void run(host *h)
 /* ---- tests */
 
 /* The picture of a lens with an image of its own. */
-static float *run_apart(const lens_kind *kind)
+static float *run_apart(const lens_kind *kind, float max_radius_px)
 {
     lens_fixture f;
     lens_fixture_open(&f, WIDTH, HEIGHT, true);
     lens_set_up(&f, kind);
+    f.settings.max_radius_px = max_radius_px;
     lens_fixture_run(&f);
     float *result = f.result;
     f.result = NULL;
@@ -228,22 +229,25 @@ static const virga_target_kind target_kinds[] = {VIRGA_TARGET_RENDER_PASS, VIRGA
 
 /* Half floats have 11 bits, and are truncated on some devices. What is beneath and what is blended over it are rounded
  * one after the other. */
-static void the_picture_is_that_of_an_image_of_its_own(void **state)
+static void compare_to_an_image_of_its_own(virga_pass_variants variants, float max_radius_px)
 {
     static const lens_kind frames[] = {{.aperture_scale = 1},
                                        {.aperture_scale = 2, .cats_eye = 0.5f},
                                        {.aperture_scale = 1, .layers = 1},
                                        {.aperture_scale = 1, .layers = 3},
                                        {.aperture_scale = 1, .layers = 2, .flat = true}};
-    (void)state;
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
-        float *apart = run_apart(&frames[i]);
+        float *apart = run_apart(&frames[i], max_radius_px);
         for (int k = 0; k < 2; k++) {
             host h;
             double worst = 0;
-            if (!open_host(&h, target_kinds[k], WIDTH, HEIGHT, 1))
+            effect_fixture_variants = variants;
+            const bool there = open_host(&h, target_kinds[k], WIDTH, HEIGHT, 1);
+            effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+            if (!there)
                 continue;
             lens_set_up(&h.f, &frames[i]);
+            h.f.settings.max_radius_px = max_radius_px;
             run(&h);
             for (size_t p = 0; p < 4u * WIDTH * HEIGHT; p++)
                 worst = fmax(worst, fabs((double)h.f.result[p] - (double)apart[p]) / (0.01 + fabs((double)apart[p])));
@@ -253,6 +257,47 @@ static void the_picture_is_that_of_an_image_of_its_own(void **state)
         }
         free(apart);
     }
+}
+
+static void the_picture_is_that_of_an_image_of_its_own(void **state)
+{
+    (void)state;
+    compare_to_an_image_of_its_own(VIRGA_VARIANTS_OF_DEVICE, virga_default_lens_settings().max_radius_px);
+}
+
+/* Where one pass does it all, tiles are drawn from entries of their own, and some of them overwrite the target. */
+static void so_is_that_of_one_pass_for_narrow_discs(void **state)
+{
+    (void)state;
+    compare_to_an_image_of_its_own(VIRGA_VARIANTS_GPU, 16);
+}
+
+/* Noise all at one depth, behind the focus: 1.2 px, of which a part of each pixel comes from what is beneath, and 3 px,
+ * of which none does, so that one pass lets its tiles overwrite the target. */
+static void noise_at_one_depth_is_the_same_from_one_pass(void **state)
+{
+    static const double depths_m[] = {1 / (1 - 0.12), 1 / (1 - 0.3)};
+    static float many[4 * WIDTH * HEIGHT];
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        host h;
+        uint32_t hash = 3;
+        double worst = 0;
+        effect_fixture_variants = i & 1 ? VIRGA_VARIANTS_GPU : VIRGA_VARIANTS_SOFTWARE;
+        REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
+        h.f.settings.max_radius_px = 16;
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++)
+                lens_paint(&h.f.scene, x, y, lens_gray(&hash), depths_m[i / 2]);
+        run(&h);
+        for (size_t p = 0; p < 4u * WIDTH * HEIGHT && i & 1; p++)
+            worst = fmax(worst, fabs((double)h.f.result[p] - (double)many[p]) / (0.01 + fabs((double)many[p])));
+        printf("depth %d: up to %.2g apart\n", i / 2, worst);
+        assert_true(worst < 3.0 / 1024);
+        memcpy(many, h.f.result, sizeof many);
+        close_host(&h);
+    }
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
 }
 
 /* The target holds something else there than what the lens was given, and keeps it to the last bit. */
@@ -419,6 +464,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_picture_is_that_of_an_image_of_its_own),
+        cmocka_unit_test(so_is_that_of_one_pass_for_narrow_discs),
+        cmocka_unit_test(noise_at_one_depth_is_the_same_from_one_pass),
         cmocka_unit_test(what_nothing_out_of_focus_reaches_is_not_touched),
         cmocka_unit_test(all_in_focus_and_all_out_of_focus),
         cmocka_unit_test(a_picture_of_one_pixel_is_itself),
