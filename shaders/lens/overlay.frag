@@ -35,7 +35,7 @@ void main()
     look_at(at);
     if (!ALL_SHARP && !NO_FAR)
         behind = textureLod(far_field, sampled, 0.0);
-    if (!ALL_SHARP && !NO_NEAR && has_near != 0u)
+    if (!ALL_SHARP && !NO_NEAR && (!FOR_GPU || has_near != 0u)) // software has a list of such tiles
         before = field(VIRGA_LENS_NEAR);
     composed sum = begin_pixel(at, behind, before);
     if (LAYERS == 1u)
