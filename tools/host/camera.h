@@ -40,6 +40,9 @@ typedef struct host_camera {
     float jitter_px[2];             /* shifts the picture right and down */
     uint32_t samples; /* number of jittered pictures that are averaged; 0 means 1, as host_camera_at sets it */
     uint32_t sample;  /* which of them this is, from 0 on */
+    uint32_t shares;  /* so many after each other share shading where they see the same; 0 or 1: none does */
+    bool follows;     /* it keeps that of the one before where it can, else it is the first of those that share */
+    float part;       /* (shares) of a frame's motion, that passes from the first to the last of these */
     double near_m, far_m;
     uint32_t width, height;
 } host_camera;

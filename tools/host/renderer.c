@@ -100,6 +100,7 @@ void host_renderer_destroy(host_renderer **renderer)
     host_shelter_destroy(r->device, &r->shelter);
     host_contact_destroy(r->device, &r->contact);
     host_mirror_destroy(r->device, &r->mirror);
+    host_reuse_destroy(r->device, &r->reuse);
     host_image_destroy(r->device, &r->white);
     host_image_destroy(r->device, &r->blank_spots);
     host_buffer_destroy(r->device, &r->frame_buffer);
@@ -206,6 +207,11 @@ bool host_renderer_set_mirror(host_renderer *r, const host_target *target, doubl
     write_image(r, FRAME_AT_MIRROR, HOST_SAMPLE_LINEAR, &r->mirror.color);
     write_image(r, FRAME_AT_MIRROR_NEAR, HOST_SAMPLE_LINEAR, &r->mirror.near);
     return true;
+}
+
+bool host_renderer_set_reuse(host_renderer *r, const host_target *target, char *error, size_t error_size)
+{
+    return host_reuse_create(r->device, target, &r->reuse, error, error_size);
 }
 
 bool host_renderer_set_footage(host_renderer *r, const host_target *target, const host_mesh *ground, char *error,

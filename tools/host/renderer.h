@@ -46,6 +46,10 @@ bool host_renderer_set_walls(host_renderer *renderer, const virga_walls *walls, 
 bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target, double height_m, char *error,
                               size_t error_size);
 
+/* Lets sub-frames share shading, see host_camera.shares and reuse.h, for plates that are drawn into `target`. Without
+ * it each is shaded. The target must not be created anew. Once, while the device is idle. */
+bool host_renderer_set_reuse(host_renderer *renderer, const host_target *target, char *error, size_t error_size);
+
 /* Draws haze over the mirror's picture, within its pass: virga_rain_draw_haze with this view and the plane in which the
  * rays of the mirror begin. */
 typedef void (*host_draw_haze)(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4]);

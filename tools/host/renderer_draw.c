@@ -17,6 +17,11 @@ static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const stru
                        VK_ACCESS_UNIFORM_READ_BIT);
 }
 
+static void bind_frame(const host_renderer *r, VkCommandBuffer cmd)
+{
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+}
+
 /* Whether a light reaches into a box: its range does, and it does not turn its back on all of it. */
 static bool reaches(const virga_light *light, const float low[3], const float high[3])
 {
@@ -169,11 +174,16 @@ static void draw_entries(drawing *d, host_pipeline kind)
             draw_entry(d, &r->entries[i], kind);
 }
 
-static void draw_scene(drawing *d)
+static void draw_depth(drawing *d)
 {
-    const host_renderer *r = d->renderer;
     draw_entries(d, HOST_PIPELINE_DEPTH);
     draw_entries(d, HOST_PIPELINE_CUTOUT);
+}
+
+/* Where the depth is that of draw_depth. */
+static void shade(drawing *d)
+{
+    const host_renderer *r = d->renderer;
     draw_entries(d, HOST_PIPELINE_SHADE);
     if (r->footage)
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1, &r->footage_set, 0,
@@ -181,6 +191,12 @@ static void draw_scene(drawing *d)
     if (bind(d, r->footage ? HOST_PIPELINE_FOOTAGE_MIRROR : HOST_PIPELINE_SKY, true))
         vkCmdDraw(d->cmd, 3, 1, 0, 0);
     draw_entries(d, HOST_PIPELINE_GLASS);
+}
+
+static void draw_scene(drawing *d)
+{
+    draw_depth(d);
+    shade(d);
 }
 
 /* ---- skylight ----------------------------------------------------------------------------------------------- */
@@ -363,7 +379,7 @@ static bool draw_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host
 {
     drawing d = {.renderer = r, .cmd = cmd, .pass = r->mirror.pass, .error = error, .error_size = error_size};
     host_label_begin(r->device, cmd, "mirror");
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    bind_frame(r, cmd);
     host_mirror_begin(&r->mirror, cmd);
     if (frame->mirror[2] > 0.0f)
         draw_scene(&d);
@@ -404,7 +420,7 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
     host_renderer_look_at_mirror(r, camera, &frame);
     record_frame(r, cmd, &frame);
     host_label_begin(r->device, cmd, label);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    bind_frame(r, cmd);
     return true;
 }
 
@@ -425,15 +441,51 @@ bool host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_tar
     return !d.failed;
 }
 
+/* What moves by itself is not known to host_reuse: velocities are the camera's. */
+static bool may_share(const host_renderer *r, const host_target *target, const host_camera *camera)
+{
+    return camera->shares > 1 && r->reuse.width == target->width && r->reuse.height == target->height &&
+           !anything_moves(r);
+}
+
+/* Over the plate of the sub-frame before. */
+static void draw_following(drawing *d, const host_camera *camera)
+{
+    const host_renderer *r = d->renderer;
+    const float shift_px[2] = {r->found_px[0] - camera->jitter_px[0], r->found_px[1] - camera->jitter_px[1]};
+    host_reuse_begin_depth(&r->reuse, d->cmd);
+    draw_depth(d);
+    host_reuse_end_depth(&r->reuse, d->cmd, shift_px);
+    host_reuse_begin_shade(&r->reuse, d->cmd);
+    bind_frame(r, d->cmd);
+    d->bound = VK_NULL_HANDLE;
+    shade(d);
+    vkCmdEndRenderPass(d->cmd);
+}
+
+static void draw_first(drawing *d, const host_target *target, const host_camera *camera, bool shares)
+{
+    host_renderer *r = d->renderer;
+    host_target_begin_plate(target, d->cmd);
+    draw_scene(d);
+    host_target_end_plate(target, d->cmd);
+    if (shares)
+        host_reuse_find(&r->reuse, d->cmd, target, camera->part);
+    r->found = shares;
+    memcpy(r->found_px, camera->jitter_px, sizeof r->found_px);
+}
+
 bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                          const host_camera *previous, char *error, size_t error_size)
 {
     drawing d = {.renderer = r, .cmd = cmd, .pass = target->plate_pass, .error = error, .error_size = error_size};
     if (!begin_plate(r, cmd, target, camera, previous, "plate", error, error_size))
         return false;
-    host_target_begin_plate(target, cmd);
-    draw_scene(&d);
-    host_target_end_plate(target, cmd);
+    const bool shares = may_share(r, target, camera);
+    if (shares && camera->follows && r->found)
+        draw_following(&d, camera);
+    else
+        draw_first(&d, target, camera, shares);
     host_label_end(r->device, cmd);
     return !d.failed;
 }

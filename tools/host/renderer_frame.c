@@ -116,13 +116,17 @@ void host_renderer_look_at_mirror(const host_renderer *r, const host_camera *cam
             m[12 + row] += (float)(camera->position_m[axis] - r->mirror_eye_m[axis]) * m[axis * 4 + row];
 }
 
-/* Two or four sub-frames after each other share the looks at the mirror, so that together they take all. */
+/* Two or four sub-frames after each other share the looks at the mirror, so that together they take all. Where shading
+ * is shared those that shade for others look twice as often, and each group begins with another look. */
 static void fill_sampling(const host_camera *camera, struct host_frame_gpu *frame)
 {
     const uint32_t samples = camera->samples ? camera->samples : 1;
-    const uint32_t step = samples % 4 == 0 ? 4 : samples % 2 == 0 ? 2 : 1;
+    const bool shares = camera->shares > 1;
+    const uint32_t all = samples % 4 == 0 ? 4 : samples % 2 == 0 ? 2 : 1;
+    const uint32_t step = shares && !camera->follows && all > 1 ? all / 2 : all;
+    const uint32_t group = shares ? camera->sample / camera->shares : 0;
     frame->sampling[0] = 1.0f / (float)samples;
-    frame->sampling[1] = (float)(camera->sample % step);
+    frame->sampling[1] = (float)((camera->sample + group) % step);
     frame->sampling[2] = (float)step;
 }
 

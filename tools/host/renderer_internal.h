@@ -6,6 +6,7 @@
 #include "descriptors.h"
 #include "mirror.h"
 #include "renderer.h"
+#include "reuse.h"
 #include "shaders/frame_gpu.h"
 #include "shelter.h"
 #include "skylight.h"
@@ -67,6 +68,9 @@ struct host_renderer {
     float mirror_shows;       /* 1: it was drawn with the scene; 0: empty */
     float mirror_clip[16];    /* its clip space from what is relative to mirror_eye_m, with its jitter */
     double mirror_eye_m[3];   /* the camera it was drawn with */
+    host_reuse reuse;         /* width 0: none */
+    bool found;               /* where the next sub-frame can keep shading */
+    float found_px[2];        /* jitter of the one that shaded it */
     host_draw_haze draw_haze; /* draws over the mirror; NULL: none */
     void *haze_user;
     host_skylight skylight;

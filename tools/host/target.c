@@ -53,13 +53,13 @@ static VkAttachmentDescription drawn(host_output output)
 
 #define READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
 
-/* `over`: what is there is kept. */
-static bool create_plate_pass(host_device *device, bool over, VkRenderPass *pass, char *error, size_t error_size)
+/* The first `kept` attachments keep what is there. */
+static bool create_plate_pass(host_device *device, uint32_t kept, VkRenderPass *pass, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[HOST_PLATE_COLORS + 1];
     for (uint32_t i = 0; i <= HOST_PLATE_COLORS; i++) {
         attachments[i] = drawn((host_output)i);
-        if (!over)
+        if (i >= kept)
             continue;
         attachments[i].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
         attachments[i].initialLayout = attachments[i].finalLayout;
@@ -78,6 +78,11 @@ static bool create_plate_pass(host_device *device, bool over, VkRenderPass *pass
                       VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT},
     };
     return host_pass_create(device, &def, pass, error, error_size);
+}
+
+bool host_target_create_kept_pass(host_device *device, VkRenderPass *pass, char *error, size_t error_size)
+{
+    return create_plate_pass(device, HOST_PLATE_COLORS, pass, error, error_size);
 }
 
 /* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. An attached depth
@@ -171,8 +176,8 @@ static bool create_parts(host_device *device, host_target *target, char *error, 
             return false;
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
         plate[i] = target->images[i].view;
-    return create_plate_pass(device, false, &target->plate_pass, error, error_size) &&
-           create_plate_pass(device, true, &target->over_pass, error, error_size) &&
+    return create_plate_pass(device, 0, &target->plate_pass, error, error_size) &&
+           create_plate_pass(device, HOST_PLATE_COLORS + 1, &target->over_pass, error, error_size) &&
            create_layer_passes(device, target, error, error_size) &&
            create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
                               &target->plate_framebuffer, error, error_size) &&

@@ -100,6 +100,9 @@ float host_target_picked_depth(const host_device *device, const host_target *tar
 void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels,
                             const host_buffer *depth);
 
+/* A pass that keeps the plate's colors and clears its depth, compatible with the plate's. For host_reuse. */
+bool host_target_create_kept_pass(host_device *device, VkRenderPass *pass, char *error, size_t error_size);
+
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_over(const host_target *target, VkCommandBuffer cmd);  /* over a plate that is there */

@@ -107,6 +107,20 @@ struct host_contact_gpu { /* push constants */
     float texel_m;
 };
 
+/* ---- shading that sub-frames share -------------------------------------------------------------------------- */
+
+#define HOST_REUSE_SIDE 4 /* pixels along a side of a block */
+
+struct host_reuse_gpu { /* push constants */
+    HOST_UINT width;
+    HOST_UINT height;
+    float contrast; /* share of the brighter one that neighbours on a surface may differ by */
+    float edge;     /* and where a surface ends */
+    float moved2;   /* square of the pixels that it may move in a frame */
+    float shift_x;  /* pixels from where the sub-frame sees a point to where that did which it shares with */
+    float shift_y;
+};
+
 /* ---- sums of sub-frames ------------------------------------------------------------------------------------- */
 
 struct host_accumulate_gpu { /* push constants */

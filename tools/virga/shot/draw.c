@@ -70,15 +70,33 @@ static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const to
     return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
 }
 
+/* ---- sub-frames that share */
+
+/* So many after each other share the shading of the plate. Through a lens each sees its things elsewhere, and where the
+ * velocity is that of the water, it is drawn over the plate's. */
+static uint32_t shading_share(const shot *s)
+{
+    const bool alone = s->plate || s->moving_target || shot_looks_through_lens(s);
+    return alone ? 1 : host_accumulator_share(s->options.samples);
+}
+
+/* The place of a sub-frame in the sequence of jitters, which has powers of two and three: every second or fourth are
+ * alike. Of sub-frames that share shading the first ones would be, so groups begin at another place each. */
+static uint32_t jitter_place(const shot *s, uint32_t sample)
+{
+    const uint32_t share = shading_share(s), group = sample / share;
+    return group * share + (sample + group) % share;
+}
+
 /* Whether a layer that is smooth has its turn in a sub-frame: one in each group, each time at another place of the
  * group, as jitter is a sequence of powers of two and three, in which every second or fourth are alike. A lens blurs
  * each sub-frame in its own way, and needs them all. The sums have as many sub-frames as were drawn before this one. */
 static bool has_turn(const shot *s, const shot_layer *layer)
 {
-    const uint32_t share = host_accumulator_share(s->options.samples), sample = s->sums.samples;
+    const uint32_t share = host_accumulator_share(s->options.samples), place = jitter_place(s, s->sums.samples);
     if (!layer->layer->is_smooth || s->lens || shot_looks_through_lens(s))
         return true;
-    return sample % share == sample / share % share;
+    return place % share == place / share % share;
 }
 
 /* Each into a picture of its own. */
@@ -180,6 +198,20 @@ static void place_cameras(shot *s, double close_s, double part_s, double shot_st
     host_camera_move_on_lens(&cameras->frame_ago, lens_m, focus_m);
 }
 
+/* The sub-frame whose depth and id a frame has is shaded by itself. */
+static bool is_kept(const shot *s, uint32_t sample)
+{
+    return sample == s->options.samples / 2;
+}
+
+static void share_shading(const shot *s, uint32_t sample, host_camera *camera)
+{
+    const double share = shading_share(s), shutter = s->scene->frames.shutter_deg / 360;
+    camera->shares = (uint32_t)share;
+    camera->follows = sample % camera->shares != 0 && !is_kept(s, sample);
+    camera->part = (float)(shutter * (share - 1) / s->options.samples);
+}
+
 /* The lens, for streaks: each is blurred by its own depth, unless sub-frames look through the lens. */
 static void set_lens(const shot *s, double focus_inv_m, virga_view *view)
 {
@@ -227,11 +259,12 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     float jitter[2];
     double lens_m[2];
     sample_cameras steady = {.focus_inv_m = shot_focus_inv_m(s, camera_s)}, cameras = steady;
-    host_camera_jitter(sample, s->options.samples, jitter);
+    host_camera_jitter(jitter_place(s, sample), s->options.samples, jitter);
     lens_point(s, sample, lens_m);
     place_cameras(s, close_s, part_s, shot_start, NULL, lens_m, &steady);
     place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
     cameras.now.sample = sample;
+    share_shading(s, sample, &cameras.now);
     const virga_view steady_view = look_through(s, part_s, &steady);
     const virga_view jittered_view = look_through(s, part_s, &cameras);
     const tool_moment at = {.jittered = &jittered_view,
@@ -260,10 +293,9 @@ static bool weigh_sample(shot *s, uint32_t sample, char *error, size_t error_siz
 static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
-    const bool keep = sample == s->options.samples / 2;
     if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size) ||
         !weigh_sample(s, sample, error, error_size) ||
-        !host_accumulator_add(&s->sums, cmd, &s->target, keep, error, error_size))
+        !host_accumulator_add(&s->sums, cmd, &s->target, is_kept(s, sample), error, error_size))
         return false;
     if (sample + 1 == s->options.samples)
         host_accumulator_copy_out(&s->sums, cmd, &s->target);

@@ -146,11 +146,18 @@ static bool check_input(shot *s, char *error, size_t error_size)
                                    plate_ground_open(s, error, error_size));
 }
 
+static bool open_renderer(shot *s, char *error, size_t error_size)
+{
+    return shot_create_target(s, error, error_size) &&
+           host_renderer_create(&s->device, &s->renderer, error, error_size) &&
+           (host_accumulator_share(s->options.samples) == 1 ||
+            host_renderer_set_reuse(s->renderer, &s->target, error, error_size));
+}
+
 bool shot_open_scene(shot *s, char *error, size_t error_size)
 {
     s->lighting = virga_default_lighting();
-    if (s->options.draw && (!shot_create_target(s, error, error_size) ||
-                            !host_renderer_create(&s->device, &s->renderer, error, error_size)))
+    if (s->options.draw && !open_renderer(s, error, error_size))
         return false;
     shot_load_lights(s);
     return shot_load_meshes(s, error, error_size) && shot_load_environment(s, error, error_size) &&

@@ -1,0 +1,230 @@
+/* test_reuse.c - sub-frames that share shading: on a flat plane they do, and what only some of them see is drawn by
+ * these, a post narrower than a pixel among it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "plate_fixture.h"
+
+enum { WIDTH = 128, HEIGHT = 96, SAMPLES = 16, SHARE = 4 };
+
+#define PLANE_ALBEDO 0.5f
+#define POST_ALBEDO  0.1f
+#define POST_M       0.03f /* 0.3 of a pixel at its distance of 8 m */
+
+static const host_camera_key keys[2] = {
+    {.time_s = 0.0, .position_m = {0.0, 1.5, 8.0}, .look_at_m = {0.0, 1.5, 0.0}},
+    {.time_s = 1.0, .position_m = {2.4, 1.5, 8.0}, .look_at_m = {2.4, 1.5, 0.0}},
+};
+static const host_camera_path path = {.keys = keys, .count = 2, .fov_deg = 60.0, .near_m = 0.1, .far_m = 100.0};
+
+typedef struct scene {
+    fixture base;
+    host_target target;
+    host_renderer *renderer;
+    host_environment environment;
+    host_mesh plane, post;
+    host_accumulator sums;
+    host_drawn picture;
+    float color[WIDTH * HEIGHT * 4]; /* of the picture before, see keep */
+} scene;
+
+/* Two triangles that face up, or to the camera. */
+static bool make_quad(scene *s, const float corners[4][3], const float normal[3], float albedo, host_mesh *mesh)
+{
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_vertex v[4];
+    host_material material = {.base_color = {albedo, albedo, albedo, 1.0f}, .roughness = 0.9f};
+    memset(v, 0, sizeof v);
+    for (int i = 0; i < 4; i++) {
+        memcpy(v[i].position, corners[i], sizeof v[i].position);
+        memcpy(v[i].normal, normal, sizeof v[i].normal);
+    }
+    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error);
+}
+
+static bool make_meshes(scene *s)
+{
+    static const float plane[4][3] = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
+    static const float post[4][3] = {{0, 0, 0}, {POST_M, 0, 0}, {POST_M, 1.2f, 0}, {0, 1.2f, 0}};
+    return make_quad(s, plane, (const float[3]){0, 1, 0}, PLANE_ALBEDO, &s->plane) &&
+           make_quad(s, post, (const float[3]){0, 0, 1}, POST_ALBEDO, &s->post);
+}
+
+static bool build(scene *s)
+{
+    host_device *device = &s->base.device;
+    char *error = s->base.error;
+    const size_t size = sizeof s->base.error;
+    host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
+    return host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
+           host_renderer_create(device, &s->renderer, error, size) &&
+           host_renderer_set_reuse(s->renderer, &s->target, error, size) && make_meshes(s) &&
+           host_renderer_add(s->renderer, &s->plane, error, size) &&
+           host_renderer_add(s->renderer, &s->post, error, size) &&
+           host_environment_create(device, &white, &s->environment, error, size) &&
+           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
+           host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
+           host_drawn_create(WIDTH, HEIGHT, &s->picture, error, size);
+}
+
+static int set_up(void **state)
+{
+    scene *s = calloc(1, sizeof *s);
+    *state = s;
+    if (!fixture_begin(&s->base)) {
+        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
+        exit(77);
+    }
+    if (build(s))
+        return 0;
+    fprintf(stderr, "%s\n", s->base.error);
+    return -1;
+}
+
+static int tear_down(void **state)
+{
+    scene *s = *state;
+    host_accumulator_destroy(&s->sums);
+    host_drawn_destroy(&s->picture);
+    host_renderer_destroy(&s->renderer);
+    host_environment_destroy(&s->base.device, &s->environment);
+    host_mesh_destroy(&s->base.device, &s->plane);
+    host_mesh_destroy(&s->base.device, &s->post);
+    host_target_destroy(&s->base.device, &s->target);
+    const uint32_t wrong = fixture_end(&s->base);
+    if (wrong)
+        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
+    free(s);
+    return wrong ? -1 : 0;
+}
+
+/* How a picture is drawn. */
+typedef struct way {
+    uint32_t shares;
+    bool flashes; /* a lamp shines in the first sub-frame of each group alone */
+    float part;   /* of a frame's motion, see host_camera */
+} way;
+
+static void draw_one(scene *s, const way *w, uint32_t i)
+{
+    const virga_light lamp = {.position_m = {0, 6, 4}, .intensity = {10, 10, 10}};
+    float jitter[2];
+    host_camera now, before;
+    VkCommandBuffer cmd;
+    host_camera_jitter(i, SAMPLES, jitter);
+    host_camera_at(&path, 0.5, WIDTH, HEIGHT, jitter, &now);
+    host_camera_at(&path, 0.5 - 1.0 / 24.0, WIDTH, HEIGHT, NULL, &before);
+    now.samples = SAMPLES;
+    now.sample = i;
+    now.shares = w->shares;
+    now.follows = w->shares > 1 && i % w->shares != 0;
+    now.part = w->part;
+    host_renderer_set_lights(s->renderer, &lamp, w->flashes && i % SHARE == 0);
+    assert_true(host_begin_frame(&s->base.device, &cmd, s->base.error, sizeof s->base.error));
+    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &now, &before, s->base.error, sizeof s->base.error));
+    host_target_begin_layer(&s->target, cmd);
+    host_target_end_layer(&s->target, cmd);
+    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, s->base.error, sizeof s->base.error));
+    if (i + 1 == SAMPLES)
+        host_accumulator_copy_out(&s->sums, cmd, &s->target);
+    assert_true(host_submit(&s->base.device, s->base.error, sizeof s->base.error));
+}
+
+static void draw(scene *s, way w)
+{
+    host_accumulator_reset(&s->sums);
+    for (uint32_t i = 0; i < SAMPLES; i++)
+        draw_one(s, &w, i);
+    assert_true(host_wait(&s->base.device, s->base.error, sizeof s->base.error));
+    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+}
+
+static void keep(scene *s)
+{
+    memcpy(s->color, s->picture.color, sizeof s->color);
+}
+
+static float red(const float *color, int x, int y)
+{
+    return color[(y * WIDTH + x) * 4];
+}
+
+/* On the plane, away from the horizon and from the post's columns. */
+enum { FLAT_X = 100, FLAT_Y = 80 };
+
+/* Four groups of four that are shaded with the lamp once: all have its light. Shaded each, a quarter has. */
+static void flat_surfaces_are_shaded_once(void **state)
+{
+    scene *s = *state;
+    draw(s, (way){.shares = 1});
+    const float dark = red(s->picture.color, FLAT_X, FLAT_Y);
+    draw(s, (way){.shares = 1, .flashes = true});
+    const float quarter = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    draw(s, (way){.shares = SHARE, .flashes = true});
+    const float all = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    printf("light of the lamp: %.5f in a quarter, %.5f in all\n", (double)quarter, (double)all);
+    assert_true(quarter > 0.005f);
+    assert_float_equal(all, 4.0f * quarter, 0.001);
+}
+
+/* The camera moves by 1.2 pixels of the post in a frame, and by more nearby. */
+static void what_moves_is_shaded_each_time(void **state)
+{
+    scene *s = *state;
+    draw(s, (way){.shares = 1, .flashes = true});
+    keep(s);
+    draw(s, (way){.shares = SHARE, .flashes = true, .part = 1.0f});
+    assert_float_equal(red(s->picture.color, FLAT_X, FLAT_Y), red(s->color, FLAT_X, FLAT_Y), 1e-6);
+}
+
+/* Most sub-frames miss a post that is narrower than a pixel, and often the first of a group. Those that see it draw
+ * it, so that it is as dark as without sharing; its foot stands on the plane and its top before the sky. */
+static void narrow_things_are_not_missed(void **state)
+{
+    scene *s = *state;
+    float most = 0.0f, darkest = 1.0f;
+    draw(s, (way){.shares = 1});
+    keep(s);
+    draw(s, (way){.shares = SHARE});
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            most = fmaxf(most, fabsf(red(s->picture.color, x, y) - red(s->color, x, y)));
+            darkest = y > HEIGHT * 6 / 10 ? fminf(darkest, red(s->color, x, y)) : darkest;
+        }
+    printf("at most %.5f apart; the post leaves %.3f\n", (double)most, (double)darkest);
+    assert_true(darkest < 0.9f * PLANE_ALBEDO); /* it is there at all */
+    assert_true(most < 0.01f);
+}
+
+/* The share of the sky in a pixel at the horizon is that of the sub-frames above it. */
+static void edges_keep_all_sub_frames(void **state)
+{
+    scene *s = *state;
+    const int x = 20;
+    draw(s, (way){.shares = 1});
+    keep(s);
+    draw(s, (way){.shares = SHARE});
+    for (int y = 1; y < HEIGHT - 1; y++) {
+        const float sky = red(s->picture.color, x, 1), plane = red(s->picture.color, x, HEIGHT - 2);
+        const float now = (red(s->picture.color, x, y) - plane) / (sky - plane);
+        const float then = (red(s->color, x, y) - plane) / (sky - plane);
+        assert_float_equal(now, then, 0.25 / SAMPLES);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flat_surfaces_are_shaded_once),
+        cmocka_unit_test(what_moves_is_shaded_each_time),
+        cmocka_unit_test(narrow_things_are_not_missed),
+        cmocka_unit_test(edges_keep_all_sub_frames),
+    };
+    return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
+}

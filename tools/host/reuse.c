@@ -1,0 +1,180 @@
+/* reuse.c - see reuse.h. */
+#include "reuse.h"
+
+#include <string.h>
+
+#include "pipeline.h"
+#include "shaders/frame_gpu.h"
+
+#include "reuse_check_comp.spv.h"
+#include "reuse_find_comp.spv.h"
+#include "reuse_frag.spv.h"
+#include "reuse_vert.spv.h"
+
+#define GROUP 8 /* blocks along a side */
+
+#define CONTRAST 0.5f /* more is shaded in each sub-frame, see host_reuse_gpu */
+#define EDGE     0.2f
+#define MOVED_PX 0.5f /* so is what moves farther from the first to the last */
+
+enum { AT_DEPTH, AT_PLANES, AT_COLOR, AT_VELOCITY, BINDINGS };
+
+#define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+
+static const VkDescriptorType kinds[BINDINGS] = {IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, IMAGE, IMAGE};
+
+/* ---- create ------------------------------------------------------------------------------------------------- */
+
+static uint32_t blocks(uint32_t pixels)
+{
+    return (pixels + HOST_REUSE_SIDE - 1) / HOST_REUSE_SIDE;
+}
+
+static bool create_memory(host_device *device, host_reuse *u, char *error, size_t error_size)
+{
+    const host_image_def depth = {.format = VK_FORMAT_D32_SFLOAT,
+                                  .extent = {u->width, u->height, 1},
+                                  .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                  .name = "depth to shade at"};
+    const VkDeviceSize size = (VkDeviceSize)blocks(u->width) * blocks(u->height) * 4 * sizeof(float);
+    return host_image_create(device, &depth, &u->depth, error, error_size) &&
+           host_buffer_create(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_DEVICE, "shared shading",
+                              &u->planes, error, error_size);
+}
+
+static bool create_framebuffers(host_device *device, const host_target *target, host_reuse *u, char *error,
+                                size_t error_size)
+{
+    const uint32_t count = HOST_PLATE_COLORS + 1;
+    VkImageView views[HOST_PLATE_COLORS + 1];
+    for (uint32_t i = 0; i < count; i++)
+        views[i] = target->images[i].view;
+    if (!host_framebuffer_create(device, u->pass, views, count, u->width, u->height, &u->depth_framebuffer, error,
+                                 error_size))
+        return false;
+    views[HOST_PLATE_COLORS] = u->depth.view;
+    return host_framebuffer_create(device, u->pass, views, count, u->width, u->height, &u->shade_framebuffer, error,
+                                   error_size);
+}
+
+static bool create_pipelines(host_device *device, host_reuse *u, char *error, size_t error_size)
+{
+    static const VkPipelineColorBlendAttachmentState kept[HOST_PLATE_COLORS];
+    const host_graphics_def fill = {
+        .vertex = HOST_CODE(reuse_vert),
+        .fragment = HOST_CODE(reuse_frag),
+        .layout = u->bindings.layout,
+        .pass = u->pass,
+        .depth_test = true,
+        .depth_write = true,
+        .compare = VK_COMPARE_OP_ALWAYS,
+        .colors = kept,
+        .color_count = HOST_PLATE_COLORS,
+    };
+    const VkPipelineLayout layout = u->bindings.layout;
+    return host_compute_create(device, HOST_CODE(reuse_find_comp), layout, &u->find, error, error_size) &&
+           host_compute_create(device, HOST_CODE(reuse_check_comp), layout, &u->check, error, error_size) &&
+           host_graphics_create(device, &fill, &u->fill, error, error_size);
+}
+
+static void write_set(const host_device *device, const host_target *target, const host_reuse *u)
+{
+    static const host_output outputs[BINDINGS] = {
+        [AT_DEPTH] = HOST_DEPTH, [AT_COLOR] = HOST_COLOR, [AT_VELOCITY] = HOST_VELOCITY};
+    for (uint32_t i = 0; i < BINDINGS; i++)
+        if (i == AT_PLANES)
+            host_set_write_buffer(device, u->bindings.sets[0], i, kinds[i], u->planes.buffer);
+        else
+            host_set_write_image(device, u->bindings.sets[0], i, u->sampler, target->images[outputs[i]].view,
+                                 i == AT_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
+                                               : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+bool host_reuse_create(host_device *device, const host_target *target, host_reuse *u, char *error, size_t error_size)
+{
+    const VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    const host_bindings_def def = {.shape = {kinds, BINDINGS, stages},
+                                   .set_count = 1,
+                                   .push_stages = stages,
+                                   .push_bytes = sizeof(struct host_reuse_gpu)};
+    memset(u, 0, sizeof *u);
+    u->width = target->width;
+    u->height = target->height;
+    if (!create_memory(device, u, error, error_size) ||
+        !host_target_create_kept_pass(device, &u->pass, error, error_size) ||
+        !create_framebuffers(device, target, u, error, error_size) ||
+        !host_sampler_create(device, HOST_SAMPLE_NEAREST, &u->sampler, error, error_size) ||
+        !host_bindings_create(device, &def, &u->bindings, error, error_size) ||
+        !create_pipelines(device, u, error, error_size))
+        return false;
+    write_set(device, target, u);
+    return true;
+}
+
+void host_reuse_destroy(host_device *device, host_reuse *u)
+{
+    vkDestroyPipeline(device->device, u->find, NULL);
+    vkDestroyPipeline(device->device, u->check, NULL);
+    vkDestroyPipeline(device->device, u->fill, NULL);
+    host_bindings_destroy(device, &u->bindings);
+    vkDestroySampler(device->device, u->sampler, NULL);
+    vkDestroyFramebuffer(device->device, u->depth_framebuffer, NULL);
+    vkDestroyFramebuffer(device->device, u->shade_framebuffer, NULL);
+    vkDestroyRenderPass(device->device, u->pass, NULL);
+    host_buffer_destroy(device, &u->planes);
+    host_image_destroy(device, &u->depth);
+    memset(u, 0, sizeof *u);
+}
+
+/* ---- recording ---------------------------------------------------------------------------------------------- */
+
+static void bind(const host_reuse *u, VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline,
+                 const struct host_reuse_gpu *push)
+{
+    vkCmdBindPipeline(cmd, point, pipeline);
+    vkCmdBindDescriptorSets(cmd, point, u->bindings.layout, 0, 1, u->bindings.sets, 0, NULL);
+    vkCmdPushConstants(cmd, u->bindings.layout, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof *push, push);
+}
+
+static void dispatch(const host_reuse *u, VkCommandBuffer cmd, VkPipeline pipeline, const struct host_reuse_gpu *push)
+{
+    bind(u, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, push);
+    vkCmdDispatch(cmd, (blocks(u->width) + GROUP - 1) / GROUP, (blocks(u->height) + GROUP - 1) / GROUP, 1);
+}
+
+void host_reuse_find(const host_reuse *u, VkCommandBuffer cmd, const host_target *target, float part)
+{
+    const float moved = MOVED_PX / (part > 1e-6f ? part : 1e-6f);
+    const struct host_reuse_gpu push = {u->width, u->height, CONTRAST, EDGE, moved * moved, 0, 0};
+    host_target_begin_read(target, cmd, HOST_VELOCITY);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
+    dispatch(u, cmd, u->find, &push);
+    host_target_end_read(target, cmd, HOST_VELOCITY);
+}
+
+void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
+{
+    host_pass_begin(cmd, u->pass, u->depth_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
+}
+
+void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2])
+{
+    const struct host_reuse_gpu push = {u->width, u->height, 0, 0, 0, shift_px[0], shift_px[1]};
+    const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    vkCmdEndRenderPass(cmd);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | compute, VK_ACCESS_SHADER_WRITE_BIT, compute,
+                        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    dispatch(u, cmd, u->check, &push);
+    host_memory_barrier(cmd, compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                        VK_ACCESS_SHADER_READ_BIT);
+}
+
+void host_reuse_begin_shade(const host_reuse *u, VkCommandBuffer cmd)
+{
+    const struct host_reuse_gpu push = {.width = u->width, .height = u->height};
+    host_pass_begin(cmd, u->pass, u->shade_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
+    bind(u, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, u->fill, &push);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+}

@@ -1,0 +1,20 @@
+// reuse.glsl - blocks of pixels whose shading sub-frames share, see reuse.h. Depth is affine in the picture where a
+// surface is flat, so a block has the plane of its depth, and how far from it a depth may be.
+#include "frame_gpu.h"
+
+layout(push_constant) uniform Reuse { host_reuse_gpu reuse; };
+
+// Depth of the pixel above and left of the block, what it rises by from pixel to pixel right and down, and how far a
+// depth may be from that; below 0: nothing is shared.
+#define REUSE_NOTHING vec4(0.0, 0.0, 0.0, -1.0)
+
+const float REUSE_MOVED_PX = 0.1; // what the eye moves meanwhile, beyond what shift says
+
+// 2 parts of a thousand of the distance: 1 - depth falls as 1 / distance.
+float reuse_tolerance(float depth) { return 0.002 * (1.0 - depth) + 1e-6; }
+
+uint reuse_block(uvec2 pixel)
+{
+    const uint row = (reuse.width + HOST_REUSE_SIDE - 1u) / HOST_REUSE_SIDE;
+    return pixel.y / HOST_REUSE_SIDE * row + pixel.x / HOST_REUSE_SIDE;
+}
