@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "contact.h"
 #include "plate_fixture.h"
 
 #include <virga/virga.h>
@@ -672,6 +673,20 @@ static void waves_mirror_without_sparks(void **state)
     assert_true(differences < 0.13 * sum);
 }
 
+/* Slanted looks show what is off that height beside its place: of a wall under eaves, what is below the ground. */
+static void contact_map_has_the_height_of_the_ground(void **state)
+{
+    const double street_m[2] = {-0.15, 0.15}, hills_m[2] = {2, 30};
+    host_contact contact = {0};
+    host_camera camera = {.position_m = {0, 0.5, 0}};
+    (void)state;
+    assert_true(host_contact_place(&contact, &camera, street_m, 12) && fabs(contact.level_m) < 1e-6);
+    assert_true(contact.low_m[1] <= street_m[0] && contact.low_m[1] + contact.height_m >= 12);
+    camera.position_m[1] = 9.6;
+    assert_true(host_contact_place(&contact, &camera, street_m, 12) && fabs(contact.level_m) < 1e-6);
+    assert_true(host_contact_place(&contact, &camera, hills_m, 40) && fabs(contact.level_m - 8) < 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -679,6 +694,7 @@ int main(void)
         cmocka_unit_test(plane_pixel),
         cmocka_unit_test(shade_under_cube),
         cmocka_unit_test(ground_below_things_is_in_their_shade),
+        cmocka_unit_test(contact_map_has_the_height_of_the_ground),
         cmocka_unit_test(sky_pixel),
         cmocka_unit_test(lamp_light),
         cmocka_unit_test(sub_frames),

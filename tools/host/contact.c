@@ -15,6 +15,7 @@
 #define STEP_M   2.0 /* in steps, so that it is not made in every frame */
 #define EYES_M   1.6 /* of the camera above the ground, about */
 #define SLANT    0.25f
+#define FLAT_M   1.0 /* ground with no more between its lowest and highest point has one height */
 
 static const VkDescriptorType kinds[HOST_CONTACT_MAPS + 1] = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -79,7 +80,7 @@ static bool differ(double a, double b)
     return a < b || a > b;
 }
 
-bool host_contact_place(host_contact *c, const host_camera *camera, double low_m, double high_m)
+bool host_contact_place(host_contact *c, const host_camera *camera, const double ground_m[2], double high_m)
 {
     const host_contact before = *c;
     const float *m = camera->view_from_world; /* its third row points back */
@@ -88,9 +89,11 @@ bool host_contact_place(host_contact *c, const host_camera *camera, double low_m
         const double ahead = length > 1e-3 ? -AHEAD_M * (double)m[2 + 4 * axis] / length : 0;
         c->low_m[axis] = floor((camera->position_m[axis] + ahead - 0.5 * SIDE_M) / STEP_M + 0.5) * STEP_M;
     }
-    c->low_m[1] = low_m - 0.1;
-    c->height_m = fmax(high_m - low_m + 0.2, 1);
-    c->level_m = floor(camera->position_m[1] - EYES_M + 0.5);
+    c->low_m[1] = ground_m[0] - 0.1;
+    c->height_m = fmax(high_m - ground_m[0] + 0.2, 1);
+    c->level_m = ground_m[1] - ground_m[0] < FLAT_M
+                     ? 0.5 * (ground_m[0] + ground_m[1])
+                     : fmin(fmax(floor(camera->position_m[1] - EYES_M + 0.5), ground_m[0]), ground_m[1]);
     bool moved = differ(before.height_m, c->height_m) || differ(before.level_m, c->level_m);
     for (int axis = 0; axis < 3; axis++)
         moved = moved || differ(before.low_m[axis], c->low_m[axis]);
@@ -98,7 +101,8 @@ bool host_contact_place(host_contact *c, const host_camera *camera, double low_m
 }
 
 /* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things
- * have no bottom: so undersides are seen along five lines. What that moves beyond a thing has no top there. */
+ * have no bottom: so undersides are seen along five lines. What that moves beyond a thing has no top there. Under eaves
+ * it has one: by so much as the ground is off level_m, what a wall has below the ground would stand before it. */
 void host_contact_look(const host_contact *c, host_contact_map map, uint32_t look, float m[16])
 {
     static const float slants[HOST_CONTACT_LOOKS][2] = {{0, 0}, {SLANT, 0}, {-SLANT, 0}, {0, SLANT}, {0, -SLANT}};

@@ -20,7 +20,8 @@ typedef enum host_contact_map {
     HOST_CONTACT_MAPS,
 } host_contact_map;
 
-#define HOST_CONTACT_LOOKS 5
+#define HOST_CONTACT_LOOKS  5
+#define HOST_CONTACT_NEAR_M 20.0 /* from the camera, it covers no more */
 
 typedef struct host_contact {
     host_image maps[HOST_CONTACT_MAPS]; /* depth; no image: there is no wet ground */
@@ -42,8 +43,9 @@ typedef struct host_contact {
 bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *contact, char *error, size_t error_size);
 void host_contact_destroy(host_device *device, host_contact *contact);
 
-/* Chooses the place of the map, for a scene of these heights. Returns whether it must be made again. */
-bool host_contact_place(host_contact *contact, const host_camera *camera, double low_m, double high_m);
+/* Chooses the place of the map, for ground between two heights and a scene up to `high_m`. Returns whether it must be
+ * made again. */
+bool host_contact_place(host_contact *contact, const host_camera *camera, const double ground_m[2], double high_m);
 
 /* Records how it is made: for each map begin, draws for each of its looks, end; then gather. HOST_CONTACT_UNDER has
  * HOST_CONTACT_LOOKS looks, the others one. */

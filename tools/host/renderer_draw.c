@@ -1,4 +1,5 @@
 /* renderer_draw.c - records a plate: the maps of the skylight, the mirror, and the scene. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -281,6 +282,28 @@ static void update_shelter(host_renderer *r, VkCommandBuffer cmd, const host_cam
     host_label_end(r->device, cmd);
 }
 
+/* The lowest and the highest point of ground within `near_m` of the camera on the map; of all ground if there is none.
+ */
+static void find_ground(const host_renderer *r, const double camera_m[3], double near_m, double heights_m[2])
+{
+    double found[2][2] = {{DBL_MAX, -DBL_MAX}, {DBL_MAX, -DBL_MAX}}; /* of all, and near */
+    for (uint32_t e = 0; e < r->entry_count; e++)
+        for (uint32_t i = 0; i < r->entries[e].mesh->primitive_count; i++) {
+            const host_primitive *p = &r->entries[e].mesh->primitives[i];
+            bool near = true;
+            for (int axis = 0; axis < 3; axis += 2)
+                near = near && (double)p->low[axis] < camera_m[axis] + near_m &&
+                       (double)p->high[axis] > camera_m[axis] - near_m;
+            for (int set = 0; p->ground && set < 1 + near; set++) {
+                found[set][0] = fmin(found[set][0], (double)p->low[1]);
+                found[set][1] = fmax(found[set][1], (double)p->high[1]);
+            }
+        }
+    const double *best = found[1][0] <= found[1][1] ? found[1] : found[0];
+    for (int i = 0; i < 2; i++)
+        heights_m[i] = best[0] <= best[1] ? best[i] : 0;
+}
+
 /* Only wet ground has it. */
 static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
 {
@@ -288,9 +311,10 @@ static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_cam
                                                  [HOST_CONTACT_UNDER] = DRAW_NO_GROUND,
                                                  [HOST_CONTACT_OVER] = DRAW_NO_GROUND};
     float low[3], high[3], map_from_world[16];
+    double ground_m[2];
     find_bounds(r, low, high);
-    if (!r->ground.cells || !r->has_contact ||
-        !host_contact_place(&r->contact, camera, (double)low[1], (double)high[1]))
+    find_ground(r, camera->position_m, HOST_CONTACT_NEAR_M, ground_m);
+    if (!r->ground.cells || !r->has_contact || !host_contact_place(&r->contact, camera, ground_m, (double)high[1]))
         return;
     host_label_begin(r->device, cmd, "contact");
     for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
