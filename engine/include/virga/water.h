@@ -127,8 +127,9 @@ typedef enum virga_water_kernel {
 typedef enum virga_water_fading {
     /* The share of the water around a particle, which is the largest among its neighbours, is how much of the surface
      * covers what is behind it; a particle that has less than they have makes the surface lower. Particles that appear
-     * and vanish do not pop, whether alone or in a whole body of water. The surface costs about a fifth more in steps
-     * with such particles. */
+     * and vanish do not pop, whether alone or in a whole body of water. In steps with such particles the pass
+     * water.density takes twice as long: on software Vulkan the surface of 7,000 particles then takes 13 % longer, and
+     * that of 200,000 takes 30 %. */
     VIRGA_WATER_FADING_COVERAGE = 0,
 
     /* The share is a factor of the particle's density, and no more. It is for two sets of particles that fill the same
