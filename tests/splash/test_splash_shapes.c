@@ -223,18 +223,25 @@ static void a_crown_in_even_light_is_not_seen(void **state)
     close_shot(&s);
 }
 
+/* A tall crown, seen from the side under a black sky, before a scene 0.1 m away. */
+static void open_before_wall(shot *s, float even)
+{
+    open_shot(s);
+    put_tall_crown(s);
+    aim(s, (const double[3]){0, 0.003, 0.03}, (const double[3]){0, 0.003, 0});
+    s->scene_depth = stored_depth(s, 0.1);
+    s->even = even;
+    memset(s->f.settings.lighting.environment_sh, 0, sizeof s->f.settings.lighting.environment_sh);
+    apply_settings(s);
+}
+
 /* Just left of the middle, below the rim: there the scene has no green, but what the wall bends comes from beside. Of a
  * wall that bends nothing it was 3.5 px. */
 static void a_crowns_wall_bends_what_is_behind_it(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s);
-    put_tall_crown(&s);
-    aim(&s, (const double[3]){0, 0.003, 0.03}, (const double[3]){0, 0.003, 0});
-    s.scene_depth = stored_depth(&s, 0.1);
-    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
-    apply_settings(&s);
+    open_before_wall(&s, 0);
     const float *pixels = draw_frame(&s);
     double kept = 0, bent = 0;
     for (size_t y = SIDE / 2 + 7; y < SIDE / 2 + 17; y++)
@@ -253,13 +260,7 @@ static void a_crowns_wall_mirrors_with_both_faces(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s);
-    put_tall_crown(&s);
-    aim(&s, (const double[3]){0, 0.003, 0.03}, (const double[3]){0, 0.003, 0});
-    s.scene_depth = stored_depth(&s, 0.1);
-    s.even = 1;
-    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
-    apply_settings(&s);
+    open_before_wall(&s, 1);
     const float *pixels = draw_frame(&s);
     double lacks = 0;
     for (size_t y = SIDE / 2 + 7; y < SIDE / 2 + 17; y++)
