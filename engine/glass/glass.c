@@ -35,6 +35,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, texture_rows, 2, 32, 11, .look = true),
     DEF(U32, texture_texels, 8, 64, 16, .look = true),
     DEF(BOOL, water, false, true, false),
+    DEF(BOOL, condensation, false, true, false),
     DEF(U32, max_views, 1, VIRGA_MAX_VIEWS, 1, .look = true),
     VIRGA_TICK_ROWS,
 };
@@ -64,6 +65,17 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, mist_max_mm, 0, 1, 0.6),
     SETTING(FLOAT, air_share, 0, 2, 0.4),
     SETTING(FLOAT, air_outward, 0, 2, 0),
+    SETTING(ENUM, condensation.side, 0, VIRGA_GLASS_FOG_INSIDE, VIRGA_GLASS_FOG_NONE),
+    SETTING(FLOAT, condensation.air_c, -40, 60, 20),
+    SETTING(FLOAT, condensation.humidity, 0, 1, 0.5),
+    SETTING(FLOAT, condensation.glass_c, -40, 60, 15),
+    SETTING(FLOAT, condensation.heat_w_m2_k, 0, 500, 8),
+    SETTING(FLOAT, condensation.droplets_per_mm2, 1, 100000, 1000),
+    SETTING(FLOAT, condensation.drop_radius_mm, 0.1, 2, 0.5),
+    SETTING(FLOAT, condensation.start_um, 0, 500, 0),
+    SETTING(FLOAT, condensation.heater_k, 0, 80, 0),
+    SETTING(FLOAT, condensation.heater_s, 1, 3600, 300),
+    SETTING(U32, condensation.heater_wires, 0, 64, 0),
     SETTING(FLOAT, particle_radius_mm, 0.2, 5, 1.5),
     SETTING(FLOAT, penalty, 0, 1, 0.1),
     SETTING(FLOAT, particle_band, 1, 16, 4),
@@ -124,6 +136,7 @@ static VkDeviceSize grid_cells(const virga_glass_def *def)
 enum {
     COUNT_CELLS = 1,
     COUNT_OCCUPANTS,
+    COUNT_FILM,
     COUNT_SLOTS,
     COUNT_SELECTION_BYTES,
     COUNT_FILM_BLOCKS,
@@ -145,6 +158,8 @@ enum {
     COUNT_MIST_ROWS,
     COUNT_TEXTURE_COLUMNS,
     COUNT_TEXTURE_ROWS,
+    COUNT_FOG_COLUMNS,
+    COUNT_FOG_ROWS,
 };
 
 static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -159,7 +174,9 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
     counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
-    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (3 + VIRGA_GLASS_QUAD_WORDS) * ((VkDeviceSize)def->max_drops + 2);
+    counts[COUNT_CORNERS] = glass_fog_offset(&sizes, def) + (def->condensation ? blocks * 6 : 0);
+    counts[COUNT_FOG_COLUMNS] = def->condensation ? sizes.max_mist.width : 1;
+    counts[COUNT_FOG_ROWS] = def->condensation ? sizes.max_mist.height : 1;
     counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;
     counts[COUNT_MAP_COLUMNS] = sizes.max_columns;
     counts[COUNT_MAP_ROWS] = sizes.max_rows;
@@ -177,11 +194,12 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const VkDeviceSize columns = glass_cells_along(def->width_m, def->cell_m);
     counts[COUNT_CELLS] = columns * glass_cells_along(def->height_m, def->cell_m);
     counts[COUNT_OCCUPANTS] = counts[COUNT_CELLS] + (def->water ? counts[COUNT_CELLS] + glass_film_blocks(def) : 0);
+    counts[COUNT_FILM] = (def->condensation ? 2 : 1) * counts[COUNT_CELLS];
     counts[COUNT_SLOTS] = def->max_drops;
     counts[COUNT_SELECTION_BYTES] = VIRGA_SELECTION_BYTES((VkDeviceSize)def->max_drops);
     counts[COUNT_FILM_BLOCKS] = glass_film_blocks(def);
     counts[COUNT_SEEDS] = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops +
-                          VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS + glass_max_sites(def);
+                          VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS + glass_max_sites(def) + glass_fog_sites(def);
     counts[COUNT_GRID] = grid_cells(def) + def->max_drops;
     counts[COUNT_TICKS] = def->max_ticks_per_step;
     count_picture(def, counts);
@@ -205,7 +223,7 @@ static const virga_effect_buffer buffers[] = {
     {"glass.active", AT(active), VIRGA_USE_STORAGE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
     {"glass.claims", AT(claims), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
     {"glass.occupants", AT(occupants), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_OCCUPANTS, FILL},
-    {"glass.film", AT(film), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.film", AT(film), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_FILM, FILL},
     {"glass.passed", AT(passed), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
     {"glass.film_blocks", AT(film_blocks), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_FILM_BLOCKS, FILL},
     {"glass.seeds", AT(seeds), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_seed_gpu), COUNT_SEEDS, FILL},
@@ -252,6 +270,8 @@ static const virga_effect_image images[] = {
      COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"glass.textures", AT(picture.textures), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR,
      CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, .per_view = true},
+    {"glass.fog_map", AT(picture.fog_map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, CLEARED_USE | WRITTEN_USE | READ_BACK,
+     COUNT_FOG_COLUMNS, COUNT_FOG_ROWS, 1, FILL, .per_view = true},
     BLANK_DEPTH("glass.blank_depth", picture.blank_depth),
     BLANK_COLOR("glass.blank_color", picture.blank_color),
 };
@@ -319,6 +339,11 @@ static const virga_effect_pass passes[] = {
     STEP(flood),
     STEP(recede),
     STEP(break_film),
+    STEP(fog_begin),
+    STEP(fog_grow),
+    STEP(fog_wipe),
+    STEP(fog_claim),
+    STEP(fog_take),
     PICTURE(balls, ball_passes, .forms = 2),
     PICTURE(mist_blocks, mist_blocks),
     PICTURE(film_tiles, film_tiles),
@@ -331,6 +356,7 @@ static const virga_effect_pass passes[] = {
     PICTURE(texture, texture_passes, .forms = 2),
     PICTURE(drop_quads, drop_quads),
     PICTURE(front_quads, front_quads),
+    PICTURE(fog_map, fog_map_pass),
 };
 
 /* The sizes that may shrink to fit the memory budget: the number of drops and the resolution of the height map. The
@@ -384,7 +410,7 @@ static virga_result check_settings(const void *object, void *given, bool *change
     for (uint32_t i = 0; i < settings->wiper_count; i++)
         if (glass_check_wiper(&glass->base.context->log, &settings->wipers[i], changed))
             return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
+    return glass_check_condensation(glass, settings);
 }
 
 static virga_result apply_settings(void *object, void *settings)
@@ -395,7 +421,9 @@ static virga_result apply_settings(void *object, void *settings)
 /* ---- state */
 
 static const virga_effect_state_row state_rows[] = {
-    STATE(ticks), STATE(last_tick), STATE(host_deg), STATE(host_known), STATE(particles_ever), STATE(flooded_until),
+    STATE(ticks),          STATE(last_tick),     STATE(host_deg),  STATE(host_known),
+    STATE(particles_ever), STATE(flooded_until), STATE(fog_since), STATE(fog_begun),
+    STATE(heat_k),         STATE(heat_before_k), STATE(breaths),   STATE(breath_count),
 };
 
 /* The height map is of the state before the load. */

@@ -200,6 +200,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->bounds_offset = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
     look->whole_map = glass->picture.whole_map;
+    glass_fill_fog_look(glass, look);
     look->sheets = s->style == VIRGA_GLASS_STYLE_PHYSICAL || look->whole_map;
 }
 
@@ -364,6 +365,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_clear(glass, cmd);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set, picture->view_offset);
     record_film(glass, cmd);
+    glass_record_fog_map(glass, cmd);
     if (!glass_is_all_textured(&glass->settings)) {
         record_balls(glass, cmd);
         record_height_map(glass, cmd);
@@ -462,6 +464,15 @@ static virga_result check_prepare(virga_glass *glass, VkCommandBuffer cmd, const
     return glass->base.contents ? gathers_ready(glass) : VIRGA_NOT_READY;
 }
 
+/* Fog on the eye's side is drawn over drops, else under them: so also where the pane is not all seen from one side. */
+static void fill_fog_order(const virga_glass *glass, glass_prepared *seen)
+{
+    const uint32_t side = seen->draw & VIRGA_GLASS_DRAW_SIDE;
+    seen->fog = glass_shows_fog(glass);
+    seen->fog_before = glass->settings.condensation.side == VIRGA_GLASS_FOG_INSIDE ? side == VIRGA_GLASS_DRAW_BEHIND
+                                                                                   : side == VIRGA_GLASS_DRAW_BEFORE;
+}
+
 virga_result glass_prepare_sharing(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
                                    const virga_glass_pose *pose, double time_s, glass_plate *plate,
                                    virga_prepared *prepared)
@@ -496,6 +507,7 @@ virga_result glass_prepare_sharing(virga_glass *glass, VkCommandBuffer cmd, cons
     seen->shapes = !glass_is_all_textured(&glass->settings);
     seen->textures = glass_is_textured(&glass->settings);
     seen->front = glass_is_front(&glass->settings);
+    fill_fog_order(glass, seen);
     return virga_recording_result(context);
 }
 
@@ -585,16 +597,17 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
      textured_draws, 2, .replace = true},
     {"glass.front", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_front_frag), front_draws,
      2, .no_depth = true},
+    {"glass.fog", VIRGA_VERTEX_FORM(glass_draw_fog_vert), VIRGA_FORM(glass_draw_fog_frag), textured_draws, 2},
 };
 
-enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT };
+enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT, ROW_FOG };
 
 /* As choose_draws chooses. */
 uint32_t glass_wanted_draws(const void *glass, const void *given)
 {
     (void)glass;
     const virga_glass_settings *settings = given;
-    uint32_t rows = 0;
+    uint32_t rows = settings->condensation.side != VIRGA_GLASS_FOG_NONE ? 1u << ROW_FOG : 0;
     if (!glass_is_all_textured(settings))
         rows |= 1u << ROW_REFRACTION | 1u << (settings->style == VIRGA_GLASS_STYLE_PAPER ? ROW_PAPER : ROW_PHYSICAL);
     if (glass_is_front(settings))
@@ -623,7 +636,7 @@ static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 }
 
 /* The draws of a pane, in this order. */
-enum { DRAW_MIST, DRAW_SHAPES, DRAW_TEXTURED, DRAWS };
+enum { DRAW_FOG_BEHIND, DRAW_MIST, DRAW_SHAPES, DRAW_TEXTURED, DRAW_FOG_BEFORE, DRAWS };
 
 /* The pipelines for a view; NULL: nothing to draw. */
 static void choose_draws(const glass_prepared *seen, const virga_effect_target *found, bool refraction,
@@ -641,6 +654,9 @@ static void choose_draws(const glass_prepared *seen, const virga_effect_target *
     used[DRAW_MIST] = refraction ? NULL : found->draws[GLASS_DRAW_MIST + solid + plate + depth];
     used[DRAW_SHAPES] = seen->shapes ? found->draws[shapes] : NULL;
     used[DRAW_TEXTURED] = seen->textures ? found->draws[textured] : NULL;
+    used[DRAW_FOG_BEHIND] = used[DRAW_FOG_BEFORE] = NULL;
+    if (seen->fog && !refraction)
+        used[seen->fog_before ? DRAW_FOG_BEFORE : DRAW_FOG_BEHIND] = found->draws[GLASS_DRAW_FOG + depth];
     if (seen->front) {
         /* What film and mist do to a lens is not drawn, and no pixel of a disc out of focus looks up one other. */
         used[DRAW_MIST] = NULL;
@@ -670,8 +686,9 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     result = draws_ready(used);
     if (result)
         return result;
-    static const size_t arguments[DRAWS] = {offsetof(virga_glass_work_gpu, mist), offsetof(virga_glass_work_gpu, drops),
-                                            offsetof(virga_glass_work_gpu, quads)};
+    static const size_t arguments[DRAWS] = {offsetof(virga_glass_work_gpu, fog), offsetof(virga_glass_work_gpu, mist),
+                                            offsetof(virga_glass_work_gpu, drops),
+                                            offsetof(virga_glass_work_gpu, quads), offsetof(virga_glass_work_gpu, fog)};
     const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");
     begin_draw(glass, cmd);
     for (int i = 0; i < DRAWS; i++)

@@ -8,6 +8,7 @@
  *   glass_picture.c  resources and descriptor sets of the height map and the draws
  *   glass_draw.c     prepare, attach, draw
  *   glass_textures.c drops as textures, in the way of Sato et al.
+ *   glass_fog.c      condensation
  *   glass_water.c    simulated water that stands against a pane and recedes
  *   glass_temporal.c motion of a pane since the previous frame
  */
@@ -67,12 +68,20 @@ struct virga_glass {
     virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
         *enter_cell, *move_drops, *capture_mark, *capture, *wipe_film, *lay_film, *split_drops, *empty_bins,
         *particle_grid, *push_particles, *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick,
-        *dry_film, *film_compact, *measure, *flood, *recede, *break_film;
+        *dry_film, *film_compact, *measure, *flood, *recede, *break_film, *fog_begin, *fog_grow, *fog_wipe, *fog_claim,
+        *fog_take;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
     float farthest_m;                                        /* max distance of a node from the pane's origin */
     bool masked;                                             /* some cells may have no glass */
     float low_m[3], high_m[3];                               /* corners of a box around the shape */
     bool flat;
+    uint32_t fog_since;                    /* the tick in which condensation was switched on; 0: it is off */
+    bool fog_begun;                        /* it was on once */
+    double heat_k[VIRGA_GLASS_HEAT_WAVES]; /* waves of the heater's field at the end of the newest tick */
+    /* The same at the last turn of each block of cells, by turn. */
+    double heat_before_k[VIRGA_GLASS_FOG_TURNS * VIRGA_GLASS_HEAT_WAVES];
+    virga_glass_breath breaths[VIRGA_GLASS_MAX_BREATHS]; /* those that have not ended */
+    uint32_t breath_count;
     uint32_t flooded_until;              /* the tick up to which simulated water may stand there, or its film break */
     float outline[9][3];                 /* 3 x 3 points of the shape, row by row, to estimate its size on the image */
     virga_glass_tick_gpu blades;         /* of the tick being recorded */
@@ -115,6 +124,20 @@ void glass_fill_sites(const virga_glass *glass, virga_glass_tick_gpu *tick);
 void glass_record_flood(virga_glass *glass, VkCommandBuffer cmd);
 void glass_record_break(virga_glass *glass, VkCommandBuffer cmd);
 void glass_record_recede(virga_glass *glass, VkCommandBuffer cmd);
+
+/* ---- glass_fog.c */
+
+/* Sites of fog in a tick. 0: the pane cannot fog. */
+uint32_t glass_fog_sites(const virga_glass_def *def);
+virga_result glass_check_condensation(const virga_glass *glass, const virga_glass_settings *settings);
+/* What a tick needs to know, and the heater's change in it. */
+void glass_fill_fog(virga_glass *glass, virga_glass_tick_gpu *tick);
+/* At the start of a tick; before its seeds are spawned; where a blade's push constants are bound; at its end. */
+void glass_record_fog_begin(virga_glass *glass, VkCommandBuffer cmd);
+void glass_record_fog_grow(virga_glass *glass, VkCommandBuffer cmd);
+void glass_record_fog_take(virga_glass *glass, VkCommandBuffer cmd);
+struct virga_state_check;
+void glass_check_fog_state(const virga_glass *glass, struct virga_state_check *check);
 
 /* ---- glass_cells.c */
 

@@ -45,6 +45,14 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
     picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
+VkDeviceSize glass_fog_offset(const struct glass_picture *sizes, const virga_glass_def *def)
+{
+    const VkDeviceSize tiles = (VkDeviceSize)sizes->max_tile_columns * sizes->max_tile_rows;
+    const VkDeviceSize texels = (VkDeviceSize)sizes->max_mist.width * sizes->max_mist.height;
+    const VkDeviceSize blocks = texels / (VIRGA_GLASS_MIST_BLOCK * VIRGA_GLASS_MIST_BLOCK);
+    return tiles * 8 + blocks * 6 + (3 + VIRGA_GLASS_QUAD_WORDS) * ((VkDeviceSize)def->max_drops + 2);
+}
+
 /* ---- bindings */
 
 enum { BIND_RELIEF = 12, BIND_COPIES = 14, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIEWS = 28 };
@@ -83,6 +91,8 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     [BIND_VIEWS] = {TEXELS, FRAGMENT}, /* 28 the ring's buffer, as texels */
     STORAGE_IMAGE(picture.textures),   /* 29 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.textures), .sampler = VIRGA_SAMPLER_LINEAR}, /* 30 */
+    STORAGE_IMAGE(picture.fog_map),                                                                 /* 31 */
+    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.fog_map), .sampler = VIRGA_SAMPLER_LINEAR},  /* 32 */
 };
 
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view, VkImageView copies)

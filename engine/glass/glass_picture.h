@@ -21,7 +21,8 @@
  * Refraction vectors: in either style, without and with the scene's depth.
  * Mist also has pipelines for opaque surfaces.
  * Drops as textures, and their refraction vectors: without and with the scene's depth.
- * Drops on the camera's front element: without and with lights. */
+ * Drops on the camera's front element: without and with lights.
+ * Fog: without and with the scene's depth. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
@@ -30,10 +31,11 @@ enum {
     GLASS_DRAW_TEXTURED = 32,
     GLASS_DRAW_TEXTURED_REFRACTION = 34,
     GLASS_DRAW_FRONT = 36,
+    GLASS_DRAW_FOG = 38,
     GLASS_DRAW_OF_PAPER = 2, /* (refraction) offset of the paper style */
     GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) offset of those with the host's color image */
     GLASS_DRAW_OF_SOLID = 4, /* (mist) offset of those for opaque surfaces */
-    GLASS_DRAW_ROWS = 7
+    GLASS_DRAW_ROWS = 8
 };
 
 #define GLASS_GATHER_FILM        16u   /* tiles with film */
@@ -74,6 +76,8 @@ typedef struct glass_prepared {
     virga_glass_style style;
     bool shapes, textures; /* drops are drawn from the height map; as quads */
     bool front;            /* on the camera's front element */
+    bool fog;              /* the pane may have some */
+    bool fog_before;       /* it is on the eye's side of the pane */
 } glass_prepared;
 
 struct glass_picture {
@@ -95,13 +99,14 @@ struct glass_picture {
     VIRGA_PER_VIEW(virga_image_2d, copies);
     VIRGA_PER_VIEW(virga_image_2d, mist_map);
     VIRGA_PER_VIEW(virga_image_2d, textures);
+    VIRGA_PER_VIEW(virga_image_2d, fog_map);
     bool filtered;                             /* the device can filter the relief */
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_bindings *bindings;
     virga_pipeline *ball_passes[2];    /* without and with drops as textures */
     virga_pipeline *texture_passes[2]; /* without and with the scene's depth */
     virga_pipeline *drop_quads, *front_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads,
-        *plate_copy, *plate_shrink;
+        *plate_copy, *plate_shrink, *fog_map_pass;
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];              /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS];  /* by GLASS_GATHER_... bits; NULL: not needed yet */
@@ -119,11 +124,14 @@ struct glass_picture {
 
 /* ---- glass_picture.c */
 
-enum { GLASS_PICTURE_BINDINGS = 31 };
+enum { GLASS_PICTURE_BINDINGS = 33 };
 extern const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS];
 
 /* Fills the max_... members of `sizes` from a definition. Creates nothing. */
 void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *sizes);
+
+/* The first word of the quads of fog in the buffer of corners: the words of all others. */
+VkDeviceSize glass_fog_offset(const struct glass_picture *sizes, const virga_glass_def *def);
 
 /* Creates the passes that depend on the device or on settings. The buffers, images and layouts must exist. */
 virga_result glass_picture_create(virga_glass *glass);
@@ -159,6 +167,14 @@ void glass_fill_textures(virga_glass *glass, glass_view_block *block);
 bool glass_keeps_textures(const virga_glass *glass, const glass_view_block *block);
 /* Records the passes that make textures and quads. The descriptor set is bound. */
 void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_view_block *block);
+
+/* ---- glass_fog.c */
+
+/* Whether a view of the pane shows fog. */
+bool glass_shows_fog(const virga_glass *glass);
+void glass_fill_fog_look(const virga_glass *glass, virga_glass_picture_gpu *look);
+/* Records the pass that makes the fog map. The descriptor set is bound. */
+void glass_record_fog_map(virga_glass *glass, VkCommandBuffer cmd);
 
 /* ---- glass_draw.c */
 extern const virga_effect_draw glass_draws[GLASS_DRAW_ROWS];

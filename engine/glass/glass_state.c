@@ -28,7 +28,7 @@ static void check_groups(const virga_glass *glass, const virga_glass_state_gpu *
 {
     const double slots = glass->def.max_drops, blocks = (double)glass_film_blocks(&glass->def);
     const double seeds = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + slots + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS +
-                         glass_max_sites(&glass->def);
+                         glass_max_sites(&glass->def) + glass_fog_sites(&glass->def);
     virga_state_expect_groups(check, "glass.state.alive_groups", saved->alive_groups, groups_of(slots));
     virga_state_expect_groups(check, "glass.state.seed_groups", saved->seed_groups, groups_of(seeds));
     virga_state_expect_groups(check, "glass.state.active_groups", saved->active_groups, groups_of(slots));
@@ -91,6 +91,7 @@ void glass_check_state(const void *object, virga_state_check *check)
     glass_fill_grid(glass, &tick);
     virga_state_expect(check, "glass.ticks", (double)VIRGA_STATE_SAVED(check, glass->ticks), 0, VIRGA_STATE_MAX_TICKS);
     check_counts(glass, saved, check);
+    glass_check_fog_state(glass, check);
     check_groups(glass, saved, check);
     for (uint32_t i = 0; !check->failed && i < saved->shown; i++)
         virga_state_expect(check, "glass.list", listed[i], 0, glass->def.max_drops - 1.0);

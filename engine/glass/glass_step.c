@@ -38,6 +38,11 @@ static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_gla
     stats->touched_nl = count_of(state->counts[VIRGA_GLASS_TOUCHED]);
     stats->joined_nl = count_of(state->counts[VIRGA_GLASS_JOINED]);
     stats->evaporated_nl = count_of(state->counts[VIRGA_GLASS_EVAPORATED]);
+    stats->condensed_pl = count_of(state->counts[VIRGA_GLASS_CONDENSED]);
+    stats->fog_dried_pl = count_of(state->counts[VIRGA_GLASS_FOG_DRIED]);
+    stats->fog_given_nl = count_of(state->counts[VIRGA_GLASS_FOG_GIVEN]);
+    /* Nothing else happens to fog, so this is exact, and no pass has to sum all cells. */
+    stats->fog_pl = stats->condensed_pl - stats->fog_dried_pl - 1000 * stats->fog_given_nl;
     stats->arrived = count_of(state->counts[VIRGA_GLASS_ARRIVED]);
     stats->merged = count_of(state->counts[VIRGA_GLASS_MERGED]);
     stats->to_particles = count_of(state->counts[VIRGA_GLASS_TO_PARTS]);
@@ -323,6 +328,7 @@ static void push_tick(virga_glass *glass, const virga_glass_step_info *info, con
                                                                  : share;
     out->rolling_s = (float)(DRY_SHARE * glass->def.tick_s);
     glass_fill_sites(glass, out);
+    glass_fill_fog(glass, out);
     glass_fill_blades(glass, (out->tick - 1.0) * glass->def.tick_s, out->tick * glass->def.tick_s,
                       (double)i / info->ticks, (i + 1.0) / info->ticks, out);
     glass->tick_offset = virga_ring_push(glass->base.context, &glass->tick_ring, out, sizeof *out);
@@ -440,6 +446,10 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
         const uint32_t groups[2] = {(constants[3] + 15) / 16, (constants[4] + 15) / 16};
         virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, groups[0], groups[1]);
         virga_compute_barrier(glass->base.context, cmd);
+        if (glass->blades.fog_side == VIRGA_GLASS_FOG_OUTSIDE) {
+            virga_dispatch_2d(glass->base.context, cmd, glass->fog_wipe, groups[0], groups[1]);
+            virga_compute_barrier(glass->base.context, cmd);
+        }
         virga_dispatch_2d(glass->base.context, cmd, glass->lay_film, groups[0], groups[1]);
         virga_indirect_barrier(glass->base.context, cmd);
     }
@@ -462,6 +472,7 @@ static void record_spawns(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.spawn");
     glass_record_break(glass, cmd);
+    glass_record_fog_grow(glass, cmd);
     over(glass, cmd, glass->spawn_claim, SEEDS);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->spawn_scan, 1);
     over(glass, cmd, glass->spawn, SEEDS);
@@ -568,9 +579,11 @@ static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_gl
         if (!i)
             glass_record_flood(glass, cmd);
         bind(glass, cmd);
+        glass_record_fog_begin(glass, cmd);
         record_motion(glass, cmd);
         record_wipers(glass, cmd);
         record_spawns(glass, cmd);
+        glass_record_fog_take(glass, cmd);
     }
     glass_record_recede(glass, cmd);
     glass->ticks += info->ticks;

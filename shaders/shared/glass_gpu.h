@@ -16,6 +16,7 @@ typedef struct virga_glass_state_gpu virga_glass_state_gpu;
 typedef struct virga_glass_seed_gpu virga_glass_seed_gpu;
 typedef struct virga_glass_ball_gpu virga_glass_ball_gpu;
 typedef struct virga_glass_node_gpu virga_glass_node_gpu;
+typedef struct virga_glass_breath_gpu virga_glass_breath_gpu;
 #endif
 
 #define VIRGA_GLASS_GROUP            256
@@ -29,6 +30,15 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #define VIRGA_GLASS_BLOCKS_PER_GROUP 8  /* blocks of cells per workgroup of the measuring pass */
 #define VIRGA_GLASS_FILM_BLOCK       16 /* cells along the side of a block; blocks without film are skipped */
 #define VIRGA_GLASS_SITE_SPAN        4  /* sites along the side of the largest area whose film becomes one drop */
+#define VIRGA_GLASS_FOG_TURNS        16 /* ticks in which all blocks of cells have their turn to fog and to dry */
+#define VIRGA_GLASS_FOG_SITE         4  /* cells along the side of a square in which one drop at a time forms of fog */
+#define VIRGA_GLASS_HEAT_WAVES       13 /* of the heater's field: its mean and twelve cosines */
+#define VIRGA_GLASS_BREATHS          16 /* equal to VIRGA_GLASS_MAX_BREATHS */
+
+/* Sides of virga_glass_tick_gpu.fog_side, as in virga_glass_fog_side. */
+#define VIRGA_GLASS_NO_FOG      0u
+#define VIRGA_GLASS_FOG_OUTSIDE 1u
+#define VIRGA_GLASS_FOG_INSIDE  2u
 
 /* The pane. */
 struct virga_glass_pane_gpu {
@@ -64,6 +74,14 @@ struct virga_glass_blade_gpu {
     float wear;   /* [0; 1], 1: worn out */
     float film_m; /* m, thickness of the film that it leaves behind */
     uint random;
+};
+
+/* Breath on the pane: at a distance d from its middle, `share` exp(-d^2 / radius^2) of the air before the glass. */
+struct virga_glass_breath_gpu {
+    float middle[2];   /* m */
+    float inv_radius2; /* 1/m^2 */
+    float share;       /* [0; 1], in its middle */
+    float lasts;       /* [0; 1], the part of the time since a block's last turn in which it blows */
 };
 
 /* Parameters of all passes of a tick. Vectors are in the pane's own frame. */
@@ -132,6 +150,24 @@ struct virga_glass_tick_gpu {
     uint site_columns;
     uint first_site_row;
     uint site_cells; /* along a side of a site */
+    /* Condensation: fog is water in picolitres per cell. */
+    uint fog_side;       /* VIRGA_GLASS_NO_FOG: nothing condenses or dries */
+    uint fog_groups;     /* workgroups of a turn: one per block of cells, of which the last may be beyond the pane */
+    uint fog_sites;      /* seeds of drops that form of fog; 0: none in this tick */
+    float fog_pl;        /* pl that condense on a cell per kg/m^3 of excess vapour, since its last turn */
+    float breath_pl;     /* the same in the middle of a breath that is the only air there */
+    float air_vapour;    /* kg/m^3, of the room or the open air */
+    float breath_vapour; /* kg/m^3, of breath */
+    float glass_c;       /* degrees, of glass that is not heated */
+    float fog_drop_pl;   /* pl on a cell whose droplets have the radius from which they are drops of their own */
+    float fog_start_pl;  /* pl on each cell at the start */
+    float heat_wave;     /* 1/m, along v: 2 pi over the distance of the heater's wires; 0: it has none */
+    float heat_phase;    /* rad, at v = 0 */
+    /* of the rise in temperature since the last turn of the blocks that have theirs: mean, then amplitudes of cosines
+     * */
+    float heat_k[VIRGA_GLASS_HEAT_WAVES];
+    uint breath_count;
+    virga_glass_breath_gpu breaths[VIRGA_GLASS_BREATHS];
     virga_glass_blade_gpu blades[VIRGA_GLASS_BLADES];
     float sizes_m[VIRGA_GLASS_SIZES]; /* m, diameters of drops that land: quantiles of their distribution by number */
 };
@@ -153,7 +189,10 @@ struct virga_glass_count_gpu {
 #define VIRGA_GLASS_WITHOUT_SLOT 8  /* drops without a free slot: their water became part of the film */
 #define VIRGA_GLASS_TOUCHED      9  /* nl, left by simulated water that receded */
 #define VIRGA_GLASS_JOINED       10 /* nl, taken up by simulated water */
-#define VIRGA_GLASS_COUNTS       11
+#define VIRGA_GLASS_CONDENSED    11 /* pl, of vapour that became fog */
+#define VIRGA_GLASS_FOG_DRIED    12 /* pl, of fog that evaporated */
+#define VIRGA_GLASS_FOG_GIVEN    13 /* nl, of fog that became part of drops, blades' water or film, or ran off */
+#define VIRGA_GLASS_COUNTS       14
 
 /* What simulated water does to a cell: a word with one of these in the two highest bits. */
 #define VIRGA_GLASS_DRY     0u
@@ -201,7 +240,7 @@ struct virga_glass_state_gpu {
 };
 
 /* A seed: water that needs a slot at the tick's end, 40 bytes. First the drops that land in the tick, then one seed per
- * active slot, then the bins of the blades, then sites whose film breaks. */
+ * active slot, then the bins of the blades, sites whose film breaks, sites of fog. */
 struct virga_glass_seed_gpu {
     float position[2];
     float velocity[2];
@@ -228,13 +267,14 @@ struct virga_glass_ball_gpu {
 VIRGA_ASSERT_SIZE(virga_glass_pane_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_glass_node_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_glass_blade_gpu, 56);
+VIRGA_ASSERT_SIZE(virga_glass_breath_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 312);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 6460);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 6476);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 336);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 6484);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 6500);
 #undef uint
 #endif
 

@@ -103,6 +103,11 @@ struct virga_glass_picture_gpu {
     float opening_round;  /* 0: straight blades; 1: a disc */
     float opening_turn;   /* rad, of the blades */
     float opening_area;   /* of the opening whose corners are 1 from its middle */
+    /* Condensation. */
+    float fog_m_of_pl; /* m, mean thickness of a picolitre on a cell */
+    float fog_dense;   /* 1/m^2, droplets that begin on glass of mean affinity */
+    float fog_uneven;  /* of the logarithm of that, per standard deviation of a cell's affinity */
+    uint fog_offset;   /* start of its quads' vertex indices, after all else */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y
@@ -182,6 +187,7 @@ struct virga_glass_work_gpu {
     uint highest;                  /* max radius of a ball (m), the bits of a float */
     uint mist_groups[3];           /* of the pass over blocks of the mist map that may have any film */
     virga_glass_corners_gpu quads; /* draw of drops as textures */
+    virga_glass_corners_gpu fog;   /* draw of blocks with fog */
 };
 
 /* The water on a tile of the map. */
@@ -196,7 +202,7 @@ struct virga_glass_tile_gpu {
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_quad_gpu, 4 * VIRGA_GLASS_QUAD_WORDS);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 168);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 188);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

@@ -136,6 +136,16 @@ void call_virga_glass_step(calls *c)
         CALLS_TRY(c, h.context, flags, virga_glass_step, h.object, cmd, wrong ? NULL : &info);
 }
 
+void call_virga_glass_breathe(calls *c)
+{
+    const calls_handle h = calls_pick(c, CALLS_GLASS);
+    virga_glass_breath breath = {.duration_s = 1, .position_m = {0.1f, 0.07f}, .radius_m = 0.05f, .share = 0.6f};
+    const bool wrong = calls_slip(c, 20);
+    CALLS_WILD_ALL(c, &breath);
+    CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_glass_breathe, h.object,
+              wrong ? NULL : &breath);
+}
+
 void call_virga_glass_time(calls *c)
 {
     c->made++;

@@ -210,8 +210,10 @@ void calls_fill_glass_def(calls *c, virga_glass_def *out)
     SMALL(max_texels, 64, 256);
     out->height_map = calls_once_in(c, 3);
     out->water = calls_once_in(c, 2);
+    out->condensation = calls_once_in(c, 2);
     if (!c->device->honest) {
-        KEEP(CALLS_BOOL(virga_glass_def, height_map), CALLS_BOOL(virga_glass_def, water));
+        KEEP(CALLS_BOOL(virga_glass_def, height_map), CALLS_BOOL(virga_glass_def, water),
+             CALLS_BOOL(virga_glass_def, condensation));
     }
 }
 

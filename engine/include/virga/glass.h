@@ -28,6 +28,7 @@
 #ifndef VIRGA_GLASS_H
 #define VIRGA_GLASS_H
 
+#include <virga/condensation.h>
 #include <virga/drops.h>
 #include <virga/light.h>
 #include <virga/shared/glass_drop.h>
@@ -82,6 +83,10 @@ typedef struct virga_glass_def {
     /* Takes the particles of simulated water, see virga_glass_step_info.water. Costs 4 bytes of device memory per cell,
      * and 44 per drop that film may become in a tick: some 0.2 MB by default. Default false. */
     bool water;
+
+    /* Lets the pane fog, see virga_glass_condensation. Costs 4 bytes of device memory per cell and 8 per cell and view,
+     * and 44 per 256 cells. Default false. */
+    bool condensation;
 
     /* [1; VIRGA_MAX_VIEWS] views that live in a frame at the same time, see virga_prepared. Each further one costs
      * 37 bytes per texel, and 0.8 MB. Default 1. */
@@ -363,6 +368,10 @@ typedef struct virga_glass_settings {
      * 0. */
     float air_outward;
 
+    /* ---- Condensation. */
+
+    virga_glass_condensation condensation;
+
     /* ---- Wipers. */
 
     virga_glass_wiper wipers[VIRGA_GLASS_MAX_WIPERS];
@@ -614,6 +623,12 @@ typedef struct virga_glass_step_info {
  * nothing. */
 VIRGA_API virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info);
 
+/* Lets somebody breathe on the pane, on the side that fogs. Its jet of some 2 m/s adds a coefficient of 28 W/(m^2 K) in
+ * its middle, that of air which meets a wall. Has no effect while condensation is off. Up to VIRGA_GLASS_MAX_BREATHS
+ * that have not ended may be there. Errors: VIRGA_ERROR_INVALID with a log line, and nothing changes, for a pane
+ * without virga_glass_def.condensation, for values out of range, and if there are too many. */
+VIRGA_API virga_result virga_glass_breathe(virga_glass *glass, const virga_glass_breath *breath);
+
 /* Returns the simulated time (s) that draw times count from: the end of the newest tick. The first tick of the first
  * step began at 0. */
 VIRGA_API double virga_glass_time(const virga_glass *glass);
@@ -736,7 +751,9 @@ VIRGA_API void virga_glass_map_get(const virga_glass *glass, virga_glass_map *ma
 /* ---- statistics ------------------------------------------------------------------------------------------------ */
 
 /* The newest statistics of completed frames, since creation unless the comment says otherwise. Water is in nanolitres:
- *     landed + touched = drops + particles + film + run_off + wiped + evaporated + joined */
+ *     landed + touched + fog_given = drops + particles + film + run_off + wiped + evaporated + joined
+ * Fog is thin, so it has a finer unit, picolitres:
+ *     condensed_pl = fog_pl + fog_dried_pl + 1000 fog_given */
 typedef struct virga_glass_stats {
     /* 0: none yet. */
     uint64_t frame_index;
@@ -745,6 +762,10 @@ typedef struct virga_glass_stats {
 
     /* Left by simulated water that receded from the pane, and taken up by it: the simulation misses neither. */
     uint64_t touched_nl, joined_nl;
+
+    /* Condensation. Vapour that became fog; what is on the pane now; what has evaporated; and what became part of
+     * drops, of blades' water or of film, joined simulated water, or ran off. */
+    uint64_t condensed_pl, fog_pl, fog_dried_pl, fog_given_nl;
 
     /* On the pane now. Film includes what blades have gathered. */
     uint64_t drops_nl, particles_nl, film_nl;

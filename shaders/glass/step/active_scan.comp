@@ -29,7 +29,8 @@ void main()
     state.active_groups = groups_of(found.x + found.y);
     state.particle_groups = groups_of(found.y);
     state.impacts = tick.impacts == 0u ? 0u : min(head.count, tick.impacts);
-    const uint all = landing_count() + found.x + found.y + tick.blade_count * VIRGA_GLASS_BINS + tick.sites;
+    const uint all =
+        landing_count() + found.x + found.y + tick.blade_count * VIRGA_GLASS_BINS + tick.sites + tick.fog_sites;
     state.seed_groups = groups_of(all);
     state.settle_groups = groups_of(max(all, state.alive));
     for (uint i = 0u; i < VIRGA_GLASS_ROUNDS; i++) { // one round more than moves: the last one records

@@ -72,7 +72,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= tick.sites)
         return;
-    const uint number = seed_count() - tick.sites + i;
+    const uint number = seed_count() - tick.fog_sites - tick.sites + i;
     seeds[number].water_nl = 0u;
     const uvec2 site = uvec2(i % tick.site_columns, tick.first_site_row + i / tick.site_columns);
     const uint span = span_of(site);

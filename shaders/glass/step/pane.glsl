@@ -17,7 +17,7 @@ layout(scalar, set = 0, binding = 2) EXCHANGED buffer Drops { virga_glass_drop_g
 layout(scalar, set = 0, binding = 5) EXCHANGED buffer Claims { uint claims[]; };
 // Slot + 1; 0: no drop. Behind these is what flood.glsl describes.
 layout(scalar, set = 0, binding = 6) EXCHANGED buffer Occupants { uint occupants[]; };
-layout(scalar, set = 0, binding = 7) EXCHANGED buffer Film { uint film[]; };           // nl
+layout(scalar, set = 0, binding = 7) EXCHANGED buffer Film { uint film[]; }; // nl; behind these what fog.glsl describes
 // The tick in which a drop last ran over a cell; 0: never.
 layout(scalar, set = 0, binding = 8) EXCHANGED buffer Passed { uint passed[]; };
 layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]; };
