@@ -275,6 +275,26 @@ static void looks_of_panes(void **state)
     scene_file_free(scene);
 }
 
+static void condensation_of_panes(void **state)
+{
+    (void)state;
+    scene_file *scene = load_pane();
+    const scene_condensation *from = &scene_glass_of(scene)->panes[0].condensation;
+    const virga_glass_condensation def = virga_default_glass_settings().condensation;
+    SAME(side);
+    SAME(air_c);
+    SAME(humidity);
+    SAME(glass_c);
+    SAME(heat_w_m2_k);
+    SAME(droplets_per_mm2);
+    SAME(drop_radius_mm);
+    SAME(start_um);
+    SAME(heater_k);
+    SAME(heater_s);
+    SAME(heater_wires);
+    scene_file_free(scene);
+}
+
 static void wipers(void **state)
 {
     (void)state;
@@ -324,9 +344,11 @@ static void enumerations_of_panes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(splashes),       cmocka_unit_test(enumerations), cmocka_unit_test(ground),
-        cmocka_unit_test(wheels),         cmocka_unit_test(panes),        cmocka_unit_test(water_of_panes),
-        cmocka_unit_test(looks_of_panes), cmocka_unit_test(wipers),       cmocka_unit_test(enumerations_of_panes),
+        cmocka_unit_test(splashes),       cmocka_unit_test(enumerations),
+        cmocka_unit_test(ground),         cmocka_unit_test(wheels),
+        cmocka_unit_test(panes),          cmocka_unit_test(water_of_panes),
+        cmocka_unit_test(looks_of_panes), cmocka_unit_test(condensation_of_panes),
+        cmocka_unit_test(wipers),         cmocka_unit_test(enumerations_of_panes),
         cmocka_unit_test(water),          cmocka_unit_test(solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -168,6 +168,8 @@ static const scene_row pane_rows[] = {
     WHOLE(scene_pane, texture_columns, 2, 32, "11", RESTARTS, "points along the width that have a texture of a drop"),
     WHOLE(scene_pane, texture_rows, 2, 32, "11", RESTARTS, "the same along the height"),
     WHOLE(scene_pane, texture_texels, 8, 64, "16", RESTARTS, "a side of such a texture, made a power of two"),
+    GROUP(scene_pane, condensation, &scene_condensation_group, RESTARTS,
+          "fog on the glass, which drops, blades and a heater clear"),
     OPTIONAL_GROUP(scene_pane, bumps, &bumps_group, RESTARTS, "a height map of the surface, which steers drops"),
 };
 static const scene_group pane_group = SCENE_GROUP(scene_pane, pane_rows);
@@ -350,6 +352,7 @@ static void fill_def(const scene_pane *pane, bool maps, virga_glass_def *to)
     to->texture_rows = pane->texture_rows;
     to->texture_texels = pane->texture_texels;
     to->height_map = maps;
+    to->condensation = pane->condensation.side != VIRGA_GLASS_FOG_NONE;
 }
 
 static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
@@ -379,7 +382,8 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
         pane->from = pane_at(s->scene, g, g->count);
         pane->round = pane->from == &g->front;
         pane->glass = virga_scene_glass(s->simulation, g->count);
-        if (!glass_create_shape(s, pane, g->count, error, error_size) || !glass_create_mesh(s, pane, error, error_size))
+        if (!glass_create_shape(s, pane, g->count, error, error_size) ||
+            !glass_create_mesh(s, pane, error, error_size) || !glass_breathe(s, pane, error, error_size))
             return false;
     }
     return true;
@@ -506,8 +510,8 @@ static const tool_layer layers[] = {
 
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
-/* The budget of a pane, to the last nanolitre: landed + touched = drops + particles + film + wiped + run_off +
- * evaporated + joined. */
+/* The budget of a pane, to the last nanolitre: landed + touched + fog_given = drops + particles + film + wiped +
+ * run_off + evaporated + joined. That of its fog, to the last picolitre: condensed = fog + fog_dried + fog_given. */
 static void write_pane(const glass_pane *pane, jsonl *stats)
 {
     virga_glass_stats g;
@@ -534,6 +538,12 @@ static void write_pane(const glass_pane *pane, jsonl *stats)
     jsonl_number(stats, "run_off", (double)g.run_off_nl * 1e-3);
     jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
     jsonl_number(stats, "joined", (double)g.joined_nl * 1e-3);
+    if (pane->from->condensation.side != VIRGA_GLASS_FOG_NONE) {
+        jsonl_number(stats, "condensed", (double)g.condensed_pl * 1e-6);
+        jsonl_number(stats, "fog", (double)g.fog_pl * 1e-6);
+        jsonl_number(stats, "fog_dried", (double)g.fog_dried_pl * 1e-6);
+        jsonl_number(stats, "fog_given", (double)g.fog_given_nl * 1e-3);
+    }
     jsonl_end(stats);
     jsonl_end(stats);
 }

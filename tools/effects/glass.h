@@ -46,6 +46,20 @@ typedef struct scene_bumps {
     double affinity;
 } scene_bumps;
 
+/* Breath on a pane, and what fogs it. virga/glass.h explains them. */
+typedef struct scene_breath {
+    double time_s, duration_s, position_m[2], radius_m, share;
+} scene_breath;
+
+typedef struct scene_condensation {
+    uint32_t side; /* virga_glass_fog_side */
+    double air_c, humidity, glass_c, heat_w_m2_k, droplets_per_mm2, drop_radius_mm, start_um;
+    double heater_k, heater_s, heater_from_s;
+    uint32_t heater_wires;
+    scene_breath *breaths;
+    uint32_t breath_count;
+} scene_condensation;
+
 /* A pane with its drops. A member that is a pointer to a number is NULL if `kind` gives the number. */
 typedef struct scene_pane {
     char *name;
@@ -92,6 +106,7 @@ typedef struct scene_pane {
     uint32_t max_drops, max_texels;
     uint32_t texture_columns, texture_rows, texture_texels;
     scene_bumps bumps;
+    scene_condensation condensation;
 } scene_pane;
 
 /* All panes, the most distant first. */

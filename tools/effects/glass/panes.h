@@ -31,6 +31,13 @@ typedef struct glass_state {
 const scene_group *scene_pane_group(void);
 const scene_group *scene_wiper_group(void);
 
+/* ---- condensation.c: fog */
+
+extern const scene_group scene_condensation_group;
+void glass_fill_condensation(const scene_condensation *from, double time_s, virga_glass_condensation *to);
+/* Gives the library all breaths of a scene on a new pane. */
+bool glass_breathe(shot *s, const glass_pane *pane, char *error, size_t error_size);
+
 /* ---- front.c: the drops on the camera's lens */
 
 /* Whether a scene has them. */

@@ -116,6 +116,7 @@ bool glass_apply(shot *s, void *state, double time_s, char *error, size_t error_
         fill_kind(pane->from, to);
         fill_motion(pane->from, to);
         fill_look(pane->from, to);
+        glass_fill_condensation(&pane->from->condensation, time_s, &to->condensation);
         to->wiper_count = pane->from->wiper_count;
         for (uint32_t w = 0; w < to->wiper_count; w++)
             fill_wiper(&pane->from->wipers[w], shot_preroll_s(s), time_s, &to->wipers[w]);
