@@ -174,7 +174,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
     counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
-    counts[COUNT_CORNERS] = glass_fog_offset(&sizes, def) + (def->condensation ? blocks * 6 : 0);
+    counts[COUNT_CORNERS] = glass_fog_offset(&sizes, def) + (def->condensation ? blocks * 12 : 0);
     counts[COUNT_FOG_COLUMNS] = def->condensation ? sizes.max_mist.width : 1;
     counts[COUNT_FOG_ROWS] = def->condensation ? sizes.max_mist.height : 1;
     counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;

@@ -19,6 +19,7 @@
 #define PI         3.14159265358979323846
 #define GRAVITY    9.80665
 #define UNSEEN     0.0078 /* texels: a pixel this close to a dry texel does not show the wet texel beside it */
+#define SINGLE_PX  0.7    /* as SINGLE.x in shaders/glass/draw/fog.frag */
 #define MIN_TEXELS 64u    /* min texels of the map along the pane's longer side, at any distance */
 
 /* ---- the size of the pane in a view */
@@ -85,6 +86,7 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
     const double width = (double)glass->def.width_m, height = (double)glass->def.height_m;
     const double min = MIN_TEXELS / fmax(width, height);
     const double dense = fmax(pixels_per_metre(glass, block), min);
+    look->fog_single_m = (float)(SINGLE_PX / dense);
     look->tile_columns = whole_tiles(width * dense, picture->max_tile_columns);
     look->tile_rows = whole_tiles(height * dense, picture->max_tile_rows);
     look->map_columns = look->tile_columns * TILE;
@@ -578,6 +580,7 @@ static const uint32_t physical[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 
 static const uint32_t paper_draws[4] = {ALONE, ALONE | DEPTH, PLATE, PLATE | DEPTH};
 static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
 static const uint32_t textured_draws[2] = {0, DEPTH};
+static const uint32_t fog_draws[4] = {0, DEPTH, VIRGA_GLASS_DRAW_DROPLETS, VIRGA_GLASS_DRAW_DROPLETS | DEPTH};
 static const uint32_t front_draws[2] = {0, VIRGA_GLASS_DRAW_LAMPS};
 static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
                                        ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
@@ -597,7 +600,7 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
      textured_draws, 2, .replace = true},
     {"glass.front", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_front_frag), front_draws,
      2, .no_depth = true},
-    {"glass.fog", VIRGA_VERTEX_FORM(glass_draw_fog_vert), VIRGA_FORM(glass_draw_fog_frag), textured_draws, 2},
+    {"glass.fog", VIRGA_VERTEX_FORM(glass_draw_fog_vert), VIRGA_FORM(glass_draw_fog_frag), fog_draws, 4},
 };
 
 enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT, ROW_FOG };
@@ -636,7 +639,16 @@ static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 }
 
 /* The draws of a pane, in this order. */
-enum { DRAW_FOG_BEHIND, DRAW_MIST, DRAW_SHAPES, DRAW_TEXTURED, DRAW_FOG_BEFORE, DRAWS };
+enum {
+    DRAW_FOG_BEHIND,
+    DRAW_DROPLETS_BEHIND,
+    DRAW_MIST,
+    DRAW_SHAPES,
+    DRAW_TEXTURED,
+    DRAW_FOG_BEFORE,
+    DRAW_DROPLETS_BEFORE,
+    DRAWS
+};
 
 /* The pipelines for a view; NULL: nothing to draw. */
 static void choose_draws(const glass_prepared *seen, const virga_effect_target *found, bool refraction,
@@ -655,8 +667,12 @@ static void choose_draws(const glass_prepared *seen, const virga_effect_target *
     used[DRAW_SHAPES] = seen->shapes ? found->draws[shapes] : NULL;
     used[DRAW_TEXTURED] = seen->textures ? found->draws[textured] : NULL;
     used[DRAW_FOG_BEHIND] = used[DRAW_FOG_BEFORE] = NULL;
-    if (seen->fog && !refraction)
+    used[DRAW_DROPLETS_BEHIND] = used[DRAW_DROPLETS_BEFORE] = NULL;
+    if (seen->fog && !refraction) {
         used[seen->fog_before ? DRAW_FOG_BEFORE : DRAW_FOG_BEHIND] = found->draws[GLASS_DRAW_FOG + depth];
+        used[seen->fog_before ? DRAW_DROPLETS_BEFORE : DRAW_DROPLETS_BEHIND] =
+            found->draws[GLASS_DRAW_FOG + GLASS_DRAW_OF_DROPLETS + depth];
+    }
     if (seen->front) {
         /* What film and mist do to a lens is not drawn, and no pixel of a disc out of focus looks up one other. */
         used[DRAW_MIST] = NULL;
@@ -686,9 +702,14 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     result = draws_ready(used);
     if (result)
         return result;
-    static const size_t arguments[DRAWS] = {offsetof(virga_glass_work_gpu, fog), offsetof(virga_glass_work_gpu, mist),
-                                            offsetof(virga_glass_work_gpu, drops),
-                                            offsetof(virga_glass_work_gpu, quads), offsetof(virga_glass_work_gpu, fog)};
+    const size_t fog = offsetof(virga_glass_work_gpu, fog), droplets = fog + sizeof(virga_glass_corners_gpu);
+    const size_t arguments[DRAWS] = {fog,
+                                     droplets,
+                                     offsetof(virga_glass_work_gpu, mist),
+                                     offsetof(virga_glass_work_gpu, drops),
+                                     offsetof(virga_glass_work_gpu, quads),
+                                     fog,
+                                     droplets};
     const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");
     begin_draw(glass, cmd);
     for (int i = 0; i < DRAWS; i++)

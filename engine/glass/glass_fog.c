@@ -230,6 +230,7 @@ void glass_fill_fog_look(const virga_glass *glass, virga_glass_picture_gpu *look
     look->fog_dense = glass->settings.condensation.droplets_per_mm2 * 1e6f;
     look->fog_uneven = FOG_UNEVEN * glass->settings.affinity;
     look->fog_offset = (uint32_t)glass_fog_offset(&glass->picture, &glass->def);
+    look->fog_indices = 6 * look->max_blocks;
 }
 
 void glass_record_fog_map(virga_glass *glass, VkCommandBuffer cmd)

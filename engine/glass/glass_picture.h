@@ -22,7 +22,7 @@
  * Mist also has pipelines for opaque surfaces.
  * Drops as textures, and their refraction vectors: without and with the scene's depth.
  * Drops on the camera's front element: without and with lights.
- * Fog: without and with the scene's depth. */
+ * Fog: without and with the scene's depth; of droplets that are too small to be seen, and of others. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
@@ -32,9 +32,10 @@ enum {
     GLASS_DRAW_TEXTURED_REFRACTION = 34,
     GLASS_DRAW_FRONT = 36,
     GLASS_DRAW_FOG = 38,
-    GLASS_DRAW_OF_PAPER = 2, /* (refraction) offset of the paper style */
-    GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) offset of those with the host's color image */
-    GLASS_DRAW_OF_SOLID = 4, /* (mist) offset of those for opaque surfaces */
+    GLASS_DRAW_OF_DROPLETS = 2, /* (fog) offset of those for droplets that are seen */
+    GLASS_DRAW_OF_PAPER = 2,    /* (refraction) offset of the paper style */
+    GLASS_DRAW_OF_PLATE = 2,    /* (paper, mist) offset of those with the host's color image */
+    GLASS_DRAW_OF_SOLID = 4,    /* (mist) offset of those for opaque surfaces */
     GLASS_DRAW_ROWS = 8
 };
 

@@ -104,10 +104,12 @@ struct virga_glass_picture_gpu {
     float opening_turn;   /* rad, of the blades */
     float opening_area;   /* of the opening whose corners are 1 from its middle */
     /* Condensation. */
-    float fog_m_of_pl; /* m, mean thickness of a picolitre on a cell */
-    float fog_dense;   /* 1/m^2, droplets that begin on glass of mean affinity */
-    float fog_uneven;  /* of the logarithm of that, per standard deviation of a cell's affinity */
-    uint fog_offset;   /* start of its quads' vertex indices, after all else */
+    float fog_m_of_pl;  /* m, mean thickness of a picolitre on a cell */
+    float fog_dense;    /* 1/m^2, droplets that begin on glass of mean affinity */
+    float fog_uneven;   /* of the logarithm of that, per standard deviation of a cell's affinity */
+    uint fog_offset;    /* start of its quads' vertex indices, after all else: without and with single droplets */
+    uint fog_indices;   /* max number of either */
+    float fog_single_m; /* m, radius from which droplets are seen */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y
@@ -144,6 +146,8 @@ struct virga_glass_quad_gpu {
 #define VIRGA_GLASS_DRAW_PLATE 32u
 #define VIRGA_GLASS_DRAW_ALONE 64u  /* there is no background picture */
 #define VIRGA_GLASS_DRAW_PAPER 128u /* (refraction vectors) the paper's style */
+
+#define VIRGA_GLASS_DRAW_DROPLETS 256u /* (fog) some droplets are seen as drops */
 
 /* Flags of virga_glass_tile_gpu.film. */
 #define VIRGA_GLASS_LISTED    2u /* the tile is in the list for the pass that computes slopes */
@@ -182,12 +186,12 @@ struct virga_glass_work_gpu {
     uint shaped; /* number of balls with a shape, for the statistics */
     uint cut;    /* list entries of tiles that were dropped because the buffer was full */
     uint balls;
-    uint entries;                  /* list entries that all tiles need, without a limit */
-    uint used;                     /* list entries that they got */
-    uint highest;                  /* max radius of a ball (m), the bits of a float */
-    uint mist_groups[3];           /* of the pass over blocks of the mist map that may have any film */
-    virga_glass_corners_gpu quads; /* draw of drops as textures */
-    virga_glass_corners_gpu fog;   /* draw of blocks with fog */
+    uint entries;                   /* list entries that all tiles need, without a limit */
+    uint used;                      /* list entries that they got */
+    uint highest;                   /* max radius of a ball (m), the bits of a float */
+    uint mist_groups[3];            /* of the pass over blocks of the mist map that may have any film */
+    virga_glass_corners_gpu quads;  /* draw of drops as textures */
+    virga_glass_corners_gpu fog[2]; /* draws of blocks with fog: of droplets that are not seen, and that are */
 };
 
 /* The water on a tile of the map. */
@@ -202,7 +206,7 @@ struct virga_glass_tile_gpu {
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_quad_gpu, 4 * VIRGA_GLASS_QUAD_WORDS);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 188);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 208);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

@@ -29,25 +29,19 @@ layout(location = 14) flat in vec4 mist_grid;
 layout(location = 0) out vec4 radiance;
 
 #define PI 3.14159265
-#define TAPS 8
+#define HAS_DROPLETS ((DRAW_MODE & VIRGA_GLASS_DRAW_DROPLETS) != 0u)
+#define TAPS 6
 #define TURN 2.39996323                  // rad, the golden angle
 #define WAVES vec3(0.61, 0.55, 0.46)     // micrometres: red, green, blue
 #define GRAIN 0.6
 #define MAX_GRAIN 0.6                    // of the cover
-#define SINGLE vec2(0.7, 1.4)            // radius in pixels: smaller droplets are grain, larger ones are drops
+#define SINGLE vec2(0.7, 1.4)            // radius in pixels: smaller droplets are grain, larger ones drops
 #define RAGGED 0.35                      // cells: how far the border of wiped fog is off the cells' own
 #define SMALLEST_M 1e-5                  // side of the finest grid of droplets and of grain
-#define THROUGH 0.95                     // of the light passes a droplet's two faces
-
-// Point i of a spiral on a disc, turned by an angle.
-vec2 tap(int i, float turn)
-{
-    return sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(TURN * float(i) + turn), sin(TURN * float(i) + turn));
-}
 
 float hash_at(ivec2 cell, uint salt)
 {
-    return virga_unit(virga_hash4(look.pane.seed, salt, uint(cell.x), uint(cell.y)));
+    return virga_unit(virga_hash1(uint(cell.x) * 0x9e3779b9u + uint(cell.y) * 0x85ebca6bu + salt));
 }
 
 // Noise with the mean 0 and the standard deviation 1, fixed on the pane.
@@ -83,37 +77,35 @@ float with_grain(float cover, float radius, float pixel_m)
     return clamp(cover * (1.0 + varies * mix(fine, coarse, level - low) * 0.8), 0.0, 0.95);
 }
 
-// The mean of the picture over a disc, or around a pixel by a normal distribution. Each point of the pane turns the
-// samples another way, so lamps show as sparkling grain and not as images of the pattern.
-vec3 shown_around(float radius_px, bool corona, float turn)
+// What is behind, spread by a normal distribution with this standard deviation. Points of the pane turn the samples
+// in different ways, so lamps show as sparkling grain and not as images of the pattern.
+vec3 corona_here(float radius_px, float turn)
 {
     if (tint_given.w == 0.0)
         return environment(normalize(position), vec2(1.0));
+    const float copied = max(max(plate_size().x, plate_size().y) / float(VIRGA_GLASS_COPY), 1.0);
+    const int level = clamp(int(log2(max(radius_px / copied, 1.0)) + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
+    // The weights turn the distribution of green into those of red and blue.
+    const vec3 wide2 = WAVES * WAVES / (WAVES.g * WAVES.g);
     vec3 sum = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < TAPS; i++) {
-        vec2 offset = tap(i, turn);
-        vec3 weight = vec3(1.0);
-        if (corona) { // a normal distribution; the weights turn that of green into those of red and blue
-            const float rho2 = -2.0 * log(1.0 - dot(offset, offset));
-            const vec3 wide2 = WAVES * WAVES / (WAVES.g * WAVES.g);
-            weight = exp(0.5 * rho2 * (1.0 - 1.0 / wide2)) / wide2;
-            offset *= sqrt(rho2 / max(dot(offset, offset), 1e-6));
-        }
-        const vec2 from = nearest_in(gl_FragCoord.xy + radius_px * offset);
-        sum += weight * plate_at(from, max((corona ? 1.1 : 0.7) * radius_px, 1.0));
+        const float angle = TURN * float(i) + turn, rho2 = -2.0 * log(1.0 - (float(i) + 0.5) / float(TAPS));
+        const vec3 weight = exp(0.5 * rho2 * (1.0 - 1.0 / wide2)) / wide2;
+        const vec2 from = gl_FragCoord.xy + radius_px * sqrt(rho2) * vec2(cos(angle), sin(angle));
+        sum += weight * copy_at(nearest_in(from) / plate_size(), level);
         weights += weight;
     }
-    return sum / weights;
+    // A narrow one is less wide than a texel of the largest copy.
+    const vec3 sharp = host_color(textureLod(scene_color, gl_FragCoord.xy / plate_size(), 0.0).rgb, uint(tint_given.w));
+    return mix(sharp, sum / weights, clamp(2.0 * radius_px / copied, 0.0, 1.0));
 }
 
 // Fog of droplets that are too small to be seen, over what is behind.
 vec4 scattered(float cover, float radius, float turn)
 {
-    const float contact = 2.0 * atan(look.cap_height), pixel_angle = max(gain_angle.y, 1e-6);
-    const vec3 wide = THROUGH * shown_around((WATER - 1.0) * contact / pixel_angle, false, turn);
     const float spread = 0.21 * WAVES.g * 1e-6 / max(radius, 1e-6);
-    const vec3 corona = shown_around(min(spread, 0.1) / pixel_angle, true, turn);
-    const vec3 light = cover * (tint_given.rgb * wide + mist_light) + cover * (1.0 - cover) * tint_given.rgb * corona;
+    const vec3 corona = corona_here(min(spread, 0.1) / max(gain_angle.y, 1e-6), turn);
+    const vec3 light = cover * mist_light + cover * (1.0 - cover) * tint_given.rgb * corona;
     return vec4(light, cover * (2.0 - cover));
 }
 
@@ -180,11 +172,11 @@ void main()
     const vec2 fog = fog_at(pane_position);
     if (fog.x <= 1e-3 || is_behind_scene())
         discard;
-    const float single = smoothstep(SINGLE.x, SINGLE.y, fog.y / pixel_m);
+    const float single = HAS_DROPLETS ? smoothstep(SINGLE.x, SINGLE.y, fog.y / pixel_m) : 0.0;
     vec4 shown = vec4(0.0);
     if (single < 1.0)
         shown = (1.0 - single) * scattered(with_grain(fog.x, fog.y, pixel_m), fog.y, turn_here(pixel_m));
-    if (single > 0.0) {
+    if (HAS_DROPLETS && single > 0.0) {
         const Seen seen = droplet_here(fog.x, fog.y, pixel_m);
         if (seen.cover > 0.0)
             shown += single * droplet_light(seen, pixel_m);

@@ -14,6 +14,9 @@ layout(location = 14) flat out vec4 mist_grid; // as in mist.vert
 
 // Estimates: what droplets show of all the world behind them, by rays that leave at their rims, and what they reflect
 // to the eye of the light on its side; a room behind a pane has so much of the light outside.
+#define WATER 1.333
+#define THROUGH 0.95 // of the light passes a droplet's two faces
+#define TAPS 16
 #define AROUND 0.12
 #define REFLECTED 0.05
 #define INSIDE_SHARE 0.25
@@ -38,6 +41,27 @@ vec3 light_around(vec3 outward)
     return (from_inside ? AROUND * outside + REFLECTED * inside : AROUND * inside + REFLECTED * outside) / 3.14159265;
 }
 
+// What droplets show: the mean of a disc around the vertex, see fog.frag. It is so wide that it changes little from one
+// vertex to the next, and a fragment shader would need as many look-ups for each pixel.
+vec3 light_behind()
+{
+    if (!HAS_PLATE)
+        return environment(normalize(position), vec2(1.0));
+    const vec2 uv = 0.5 * gl_Position.xy / max(gl_Position.w, 1e-5) + 0.5;
+    const float contact = 2.0 * atan(look.cap_height), reach_px = (WATER - 1.0) * contact / max(view.pixel_angle, 1e-6);
+    const vec2 reach = reach_px / vec2(view.viewport[2], view.viewport[3]);
+    // the copy whose texels are about as wide as one sample's part of the disc
+    const float texels = 0.5 * max(reach.x, reach.y) * float(VIRGA_GLASS_COPY);
+    const int level = clamp(int(log2(max(texels, 1.0)) + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < TAPS; i++) {
+        const float angle = 2.39996323 * float(i); // the golden angle
+        const vec2 offset = sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(angle), sin(angle));
+        sum += copy_at(clamp(uv + reach * offset, vec2(0.0), vec2(1.0)), level);
+    }
+    return sum / float(TAPS);
+}
+
 void main()
 {
     mist_grid = vec4(look.mist_columns, look.mist_rows, look.mist_scale[0], look.mist_scale[1]);
@@ -45,5 +69,5 @@ void main()
     const float block_m = float(VIRGA_GLASS_MIST_BLOCK * look.mist_cells) * look.pane.cell_m;
     const vec2 at = vec2(number % columns, number / columns) * block_m;
     light_corner(emit_corner(min(at / vec2(look.pane.width_m, look.pane.height_m), vec2(1.0))));
-    mist_light = light_around(normalize(cross(along_u, along_v)));
+    mist_light = THROUGH * to_vec(look.tint) * light_behind() + light_around(normalize(cross(along_u, along_v)));
 }

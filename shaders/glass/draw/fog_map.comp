@@ -19,7 +19,7 @@ layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[];
 // red: cover; green: cover x radius (micrometres), so that filtering weights radii by what they cover
 layout(set = 0, binding = 31, rgba16f) writeonly uniform image2D fog_map;
 
-shared uint any_fog;
+shared uint any_fog; // 1: there is fog, 2: with droplets that are seen
 
 vec2 cell_fog(uvec2 cell)
 {
@@ -35,12 +35,12 @@ vec2 cell_fog(uvec2 cell)
 }
 
 // As draw_block in mist.comp.
-void draw_block(uvec2 block)
+void draw_block(uvec2 block, uint list)
 {
     const uint columns = look.mist_pitch / VIRGA_GLASS_MIST_BLOCK + 1u, first = block.x + block.y * columns;
     const uint indices[6] =
         uint[6](first, first + 1u, first + columns, first + columns, first + 1u, first + columns + 1u);
-    const uint at = look.fog_offset + atomicAdd(work.fog.index_count, 6u);
+    const uint at = look.fog_offset + list * look.fog_indices + atomicAdd(work.fog[list].index_count, 6u);
     for (uint i = 0u; i < 6u; i++)
         corners[at + i] = indices[i];
 }
@@ -50,9 +50,9 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         any_fog = 0u;
     barrier();
-    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex == 0u) {
-        work.fog.instance_count = 1u;
-        work.fog.first_index = look.fog_offset;
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex < 2u) {
+        work.fog[gl_LocalInvocationIndex].instance_count = 1u;
+        work.fog[gl_LocalInvocationIndex].first_index = look.fog_offset + gl_LocalInvocationIndex * look.fog_indices;
     }
     const uint columns = look.mist_pitch / VIRGA_GLASS_MIST_BLOCK;
     const uvec2 block = uvec2(gl_WorkGroupID.x % columns, gl_WorkGroupID.x / columns);
@@ -62,8 +62,8 @@ void main()
         sum += cell_fog(texel * look.mist_cells + uvec2(i % look.mist_cells, i / look.mist_cells));
     imageStore(fog_map, ivec2(texel), vec4(sum / float(look.mist_cells * look.mist_cells), 0.0, 1.0));
     if (sum.x > 0.0)
-        any_fog = 1u;
+        atomicMax(any_fog, sum.y * 1e-6 > sum.x * look.fog_single_m ? 2u : 1u);
     barrier();
     if (gl_LocalInvocationIndex == 0u && any_fog != 0u)
-        draw_block(block);
+        draw_block(block, any_fog - 1u);
 }
