@@ -18,12 +18,14 @@
 #define PAPER_LOW  30
 #define PAPER_HIGH 40
 
-enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, PASSES };
+enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, CLEAR, FOG, PASSES };
 
-static const char *const names[PASSES] = {"motion", "film",          "balls", "splat, compression, normals",
-                                          "plate",  "draw (compose)"};
+static const char *const names[PASSES] = {
+    "motion", "film", "balls", "splat, compression, normals", "plate", "draw (compose)", "fog taken by drops",
+    "fog map"};
 static const char *const passes[PASSES] = {
-    NULL, "glass.film", "glass.balls", "glass.height_map", "glass.plate_copy", "glass.draw"};
+    NULL,         "glass.film", "glass.balls",  "glass.height_map", "glass.plate_copy",
+    "glass.draw", "glass.fog",  "glass.fog_map"};
 
 /* Drops that are large enough to have a shape with texels of 1 mm. Their relative numbers are those of a shower of
  * 10 mm/h (Marshall and Palmer). These are the paper's metaballs, without thousands of fine drops that would become
@@ -32,12 +34,13 @@ static const double shaped_m[] = {0.0012, 0.002, 0.003, 0.004}, shaped_number[] 
 static const virga_sizes shaped = {VIRGA_SIZES_TABLE, shaped_m, shaped_number, 4};
 
 /* Panes of about a texel a pixel. `bare`: metaballs alone, as the paper has them, all with a shape, without film
- * and mist. */
+ * and mist. `fog`: fogged all over, and fogging, on the side of the rain. */
 static const struct row {
     uint32_t balls, side;
     float width_m;
-    bool bare;
-} rows[] = {{3000, 1024, 1, true}, {3000, 1024, 1, false}, {10000, 1024, 1, false}, {100000, 2048, 2, false}};
+    bool bare, fog;
+} rows[] = {{3000, 1024, 1, .bare = true}, {3000, 1024, 1}, {10000, 1024, 1}, {100000, 2048, 2}},
+  fog_rows[] = {{3000, 1024, 1}, {3000, 1024, 1, .fog = true}};
 
 typedef struct pane {
     virga_glass *glass;
@@ -60,6 +63,7 @@ static bool open_pane(bench *b, const struct row *row, pane *p)
     def.width_m = def.height_m = row->width_m;
     def.max_texels = row->side;
     def.max_drops = row->balls > 50000 ? 262144 : 32768;
+    def.condensation = row->fog;
     p->tick = 1;
     p->sizes = row->bare ? &shaped : NULL;
     p->bytes = virga_glass_estimate(&def);
@@ -83,6 +87,13 @@ static bool set_pane(pane *p, const struct row *row, virga_glass_style style)
     p->settings.style = style;
     if (row->bare)
         p->settings.film_um = p->settings.mist_max_mm = 0;
+    if (row->fog) {
+        p->settings.condensation.side = VIRGA_GLASS_FOG_OUTSIDE;
+        p->settings.condensation.glass_c = 8;
+        p->settings.condensation.humidity = 0.8f;
+        p->settings.condensation.start_um = 6;
+        p->settings.condensation.heat_w_m2_k = 100;
+    }
     p->settings.wiper_count = 2;
     for (int i = 0; i < 2; i++) {
         virga_glass_wiper *w = &p->settings.wipers[i];
@@ -192,7 +203,7 @@ static bool measure_style(bench *b, const struct row *row, pane *p, virga_glass_
     virga_glass_stats_get(p->glass, &stats);
     printf("  %s, %u metaballs at the end\n",
            style == VIRGA_GLASS_STYLE_PAPER ? "in the paper's style" : "by Snell and Fresnel", stats.balls);
-    for (int j = 0; j < PASSES; j++) {
+    for (int j = 0; j < (row->fog ? PASSES : CLEAR); j++) {
         const double ms = bench_median(times[j], BENCH_RUNS);
         sum += ms;
         printf("    %-28s %8.2f ms  %6.1f x fill\n", names[j], ms, ms / fill);
@@ -215,8 +226,12 @@ static bool measure(bench *b, const struct row *row)
     if (good)
         printf("%u metaballs%s asked for: %u, of %u drops and %u particles after %u ticks, in rain of %.1f mm/h at 20 "
                "m/s; %u x %u picture, %.1f m pane, %.0f MiB at most\n",
-               row->balls, row->bare ? " without film and mist" : "", stats.balls, stats.drops, stats.particles,
-               p.tick - 1, (double)p.rate_mm_h, row->side, row->side, (double)row->width_m, (double)p.bytes / 1048576);
+               row->balls,
+               row->bare  ? " without film and mist"
+               : row->fog ? " on fogged glass"
+                          : "",
+               stats.balls, stats.drops, stats.particles, p.tick - 1, (double)p.rate_mm_h, row->side, row->side,
+               (double)row->width_m, (double)p.bytes / 1048576);
     good = good && measure_limits(b, row, &p, &fill) && measure_style(b, row, &p, VIRGA_GLASS_STYLE_PAPER, fill) &&
            (row->bare || measure_style(b, row, &p, VIRGA_GLASS_STYLE_PHYSICAL, fill));
     if (good)
@@ -231,6 +246,7 @@ static bool measure(bench *b, const struct row *row)
 static const option_row option_rows[] = {
     {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--textures", 0, NULL, "glass: measure 1000 drops as textures on 320 x 240 pixels, and other ways, only", false},
+    {"--fog", 0, NULL, "glass: measure 3000 metaballs on dry and on fogged glass only", false},
     {"--facade", 0, NULL, "glass: measure 1, 10 and 100 windows of a facade only", false},
 };
 
@@ -257,6 +273,8 @@ static bool run(bench *b, const options *parsed)
         return glass_bench_textures(b);
     if (good && options_value(parsed, "--facade"))
         return glass_bench_facade(b);
+    if (good && options_value(parsed, "--fog"))
+        return measure(b, &fog_rows[0]) && measure(b, &fog_rows[1]);
     for (size_t i = 0; good && !interrupt_requested() && i < sizeof rows / sizeof rows[0]; i++)
         if (!only || rows[i].balls == only)
             good = measure(b, &rows[i]);
