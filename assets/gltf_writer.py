@@ -181,9 +181,10 @@ class Group:
 class Scene:
     """Groups, where they stand, materials and images; write() makes the file."""
 
-    def __init__(self, materials, images, name="street", generator="make_street.py"):
+    def __init__(self, materials, images, name="street", generator="make_street.py", share_indices=False):
+        """share_indices: lists that are equal are written once, as those of poses are."""
         self.materials, self.images, self.placements = materials, images, []
-        self.name, self.generator = name, generator
+        self.name, self.generator, self.share_indices = name, generator, share_indices
 
     def place(self, group, position=(0.0, 0.0, 0.0), yaw_deg=0.0, quaternion=None, scale=1.0):
         self.placements.append((group, position, yaw_deg, quaternion, scale))
@@ -206,7 +207,7 @@ class Scene:
 class _Glb:
     def __init__(self, scene):
         self.blob, self.views, self.accessors, self.meshes, self.nodes = bytearray(), [], [], [], []
-        self.mesh_of = {}
+        self.mesh_of, self.index_of = {}, {} if scene.share_indices else None
         names = [m["name"] for m in scene.materials]
         used = sorted(scene.images)
         images = [{"name": n, "mimeType": "image/png", "bufferView": self._view(scene.images[n])} for n in used]
@@ -240,13 +241,22 @@ class _Glb:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
+    def _indices(self, indices, wide):
+        key = tuple(indices)
+        if self.index_of is None or key not in self.index_of:
+            made = self._accessor(indices, "SCALAR", 5125 if wide else 5123, "I" if wide else "H", 34963)
+            if self.index_of is None:
+                return made
+            self.index_of[key] = made
+        return self.index_of[key]
+
     def _mesh(self, name, mesh, material):
         wide = len(mesh.positions) > 65535
         attributes = {"POSITION": self._accessor(mesh.positions, "VEC3", 5126, "f", 34962, True),
                       "NORMAL": self._accessor(mesh.normals, "VEC3", 5126, "f", 34962)}
         if mesh.uvs:
             attributes["TEXCOORD_0"] = self._accessor(mesh.uvs, "VEC2", 5126, "f", 34962)
-        indices = self._accessor(mesh.indices, "SCALAR", 5125 if wide else 5123, "I" if wide else "H", 34963)
+        indices = self._indices(mesh.indices, wide)
         self.meshes.append({"name": name, "primitives": [
             {"attributes": attributes, "indices": indices, "material": material}]})
         return len(self.meshes) - 1

@@ -63,10 +63,10 @@ bool host_name_contains(const char *name, const char *part)
 
 bool host_is_ground(const char *name, uint32_t material)
 {
-    static const char *const not_ground[] = {"house",   "building", "church", "wall",    "roof",   "window",  "door",
-                                             "shutter", "car",      "truck",  "bin",     "lamp",   "lantern", "bench",
-                                             "crate",   "bollard",  "bar",    "balcony", "tree_",  "pole",    "pylon",
-                                             "tire",    "fence",    "sign",   "box",     "awning", "poutre",  "border"};
+    static const char *const not_ground[] = {
+        "house", "building", "church", "wall",   "roof",    "window", "door",    "shutter", "car",     "truck", "bin",
+        "lamp",  "lantern",  "bench",  "crate",  "bollard", "bar",    "balcony", "tree_",   "pole",    "pylon", "tire",
+        "fence", "sign",     "box",    "awning", "poutre",  "border", "person",  "bicycle", "umbrella"};
     if (material >= 10 && material <= 14) /* glass, water, leaves, cloth and plastic */
         return false;
     for (size_t i = 0; i < sizeof not_ground / sizeof *not_ground; i++)
