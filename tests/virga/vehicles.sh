@@ -40,18 +40,45 @@ vehicles:
     wheels: [{contact_m: [-0.4, 0, 0], radius_m: 0.3}, {contact_m: [0.4, 0, 0], radius_m: 0.3}]
 YAML
 draw drive all --stats --frames 1-6
-python3 - "$work" <<'END' || fail "water of wheels"
+# budget FOLDER NANOLITRES: all water is counted, and more than so much was thrown.
+budget() {
+    python3 - "$work/$1" "$2" <<'END'
 import json, sys
-for line in map(json.loads, open(f"{sys.argv[1]}/all/stats.jsonl")):
+for line in map(json.loads, open(f"{sys.argv[1]}/stats.jsonl")):
     nl = {name: round(1000 * value) for name, value in line["water_ul"].items()}
     came = sum(nl[name] for name in "start rained_total spray spray_off_ground touched given".split())
     went = sum(nl[name] for name in "absorbed film puddle run_off evaporated in_air off_ground cached evicted taken "
                "thrown".split())
     if came != went:
         sys.exit(f"frame {line['frame']}: {came} nl came, {went} nl are there or gone")
-if not nl["thrown"] > 100e6:
-    sys.exit(f"only {nl['thrown']} nl were thrown")
+print(nl["thrown"], "nl were thrown")
+if not nl["thrown"] > float(sys.argv[2]):
+    sys.exit("that is too little")
 END
+}
+budget all 100000000 || fail "water of wheels"
+
+# A figure of one triangle, with two poses, treads on the same road: its feet throw water, too.
+for pose in 0 1; do
+    printf 'o pose_%d_leg\nv 0 0 %d\nv 0.2 0 %d\nv 0 1 0\nf %d %d %d\n' $pose $pose $pose $((3 * pose + 1)) \
+        $((3 * pose + 2)) $((3 * pose + 3))
+done >"$work/walker.obj"
+cat >"$work/walk.yaml" <<'YAML'
+virga: 1
+meshes: [{file: road.obj}]
+camera: {keys: [{position_m: [0, 1, 3], look_at_m: [0, 0, 0]}]}
+frames: {fps: 20, first: 1, last: 12, size: [48, 32], warm_start: false}
+rain: {rate_mm_h: 30, max_drops: 2048, occlusion_size: 64}
+ground: {on: true, cells: 128, far_cells: 0, start_wetness: 1, start_water_mm: 12}
+vehicles:
+  - file: walker.obj
+    pose_part: pose_
+    keys: [{time_s: 0, position_m: [0, 0, 1.5]}, {time_s: 2, position_m: [0, 0, -1.5]}]
+    feet: [{sole_m: [0.1, 0, 0]}, {sole_m: [-0.1, 0, 0], lands: 0.5}]
+    lamps: [{position_m: [0, 1, 0], intensity_w_sr: 10}]
+YAML
+draw walk steps --stats --frames 1-12
+budget steps 100000 || fail "water of feet"
 
 # refuse WHAT OPTION...: the check refuses, in one line that has WHAT.
 refuse() {
@@ -64,6 +91,10 @@ refuse 'vehicles.0.keys: expected rising times, got 0 after 0' --set vehicles.0.
 refuse 'vehicles.0.wheel_part: expected file beside it' \
     --set 'vehicles=[{wheel_part: tire, keys: [{time_s: 0, position_m: [0, 0, 0]}]}]'
 refuse 'vehicles.0.wheels.0.radius_m: expected a number from 0.01 to 3' --set vehicles.0.wheels.0.radius_m=0
+refuse 'vehicles.0.pose_part: expected file beside it' \
+    --set 'vehicles=[{pose_part: pose_, keys: [{time_s: 0, position_m: [0, 0, 0]}]}]'
+refuse 'vehicles.0.lamps.0.outer_deg: expected more than inner_deg (30), got 20' \
+    --set 'vehicles.0.lamps=[{position_m: [0, 0, 0], intensity_w_sr: 1, inner_deg: 30}]'
 refuse 'vehicles.0.file' --set vehicles.0.file=none.obj
 
 [ $failures = 0 ] && echo "wheels throw water"

@@ -1,12 +1,14 @@
-/* vehicles.c - the section `vehicles`: models that drive along a path. They are drawn, keep rain off, and their wheels
- * throw the water of the ground. */
+/* vehicles.c - the section `vehicles`: models that drive or walk along a path. They are drawn, keep rain off, and their
+ * wheels and feet throw the water of the ground. */
 #include "vehicles.h"
 
 #include "effect.h"
 #include "materials.h"
 #include "scene_rows.h"
+#include "vehicles/walk.h"
 #include "water/body_pose.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +34,27 @@ static const scene_row wheel_rows[] = {
 };
 static const scene_group wheel_group = SCENE_GROUP(scene_wheel, wheel_rows);
 
+static const scene_row foot_rows[] = {
+    NUMBER(scene_foot, sole_m, -100, 100, NULL, RESTARTS, "its middle when it stands, from the vehicle's origin"),
+    NUMBER(scene_foot, lands, 0, 1, "0", RESTARTS, "at this part of a stride"),
+    NUMBER(scene_foot, length_m, 0.01, 2, "0.28", RESTARTS, "of the sole"),
+    NUMBER(scene_foot, width_m, 0.01, 2, "0.1", RESTARTS, "of the sole"),
+};
+static const scene_group foot_group = SCENE_GROUP(scene_foot, foot_rows);
+
+static const scene_row lamp_rows[] = {
+    NUMBER(scene_lamp, position_m, -100, 100, NULL, RESTARTS, "from the vehicle's origin"),
+    NUMBER(scene_lamp, direction, -MAX_METERS, MAX_METERS, "[0, -0.05, -1]", RESTARTS,
+           "where it points, of any length; -z is ahead"),
+    NUMBER(scene_lamp, color, 0, 1e6, "[1, 1, 1]", RESTARTS, "linear red, green, blue, times the intensity"),
+    NUMBER(scene_lamp, intensity_w_sr, 0, 1e9, NULL, RESTARTS,
+           "radiant intensity on the axis, in the unit of the scene's radiance"),
+    NUMBER(scene_lamp, range_m, 0, MAX_METERS, "0", RESTARTS, "its light ends here, faded smoothly; 0: no end"),
+    NUMBER(scene_lamp, inner_deg, 0, 90, "6", RESTARTS, "full light inside this angle from the axis"),
+    NUMBER(scene_lamp, outer_deg, 0, 90, "20", RESTARTS, "no light outside this angle"),
+};
+static const scene_group lamp_group = SCENE_GROUP(scene_lamp, lamp_rows);
+
 static const scene_row vehicle_rows[] = {
     TEXT(scene_vehicle, name, 40, "vehicle", RESTARTS, "of the vehicle"),
     FILE_NAME(scene_vehicle, file, OPTIONAL, "its model, with its front at -z; else it is not seen"),
@@ -40,16 +63,55 @@ static const scene_row vehicle_rows[] = {
     TEXT_LIST(scene_vehicle, leave_out, leave_out_count, 40, 0, 32, "[]", "in the names of what is not drawn"),
     LIST(scene_vehicle, keys, key_count, &key_group, 1, 100000, NULL, "places by time, with lines in between"),
     LIST(scene_vehicle, wheels, wheel_count, &wheel_group, 0, SCENE_MAX_WHEELS, "[]", "that throw water"),
+    OPTIONAL_TEXT(scene_vehicle, pose_part, 40, RESTARTS,
+                  "in the names of poses of a stride, before their numbers from 0 on; all have the same triangles"),
+    NUMBER(scene_vehicle, stride_m, 0.01, 100, "1.32", RESTARTS, "way of a stride, which is two steps"),
+    LIST(scene_vehicle, feet, foot_count, &foot_group, 0, SCENE_MAX_FEET, "[]", "that tread down"),
+    LIST(scene_vehicle, lamps, lamp_count, &lamp_group, 0, SCENE_MAX_LAMPS, "[]", "cones of light that go along"),
 };
 static const scene_group vehicle_group = SCENE_GROUP(scene_vehicle, vehicle_rows);
 
 static const scene_row vehicles_section[] = {SECTION_LIST("vehicles", scene_vehicles, vehicles, vehicle_count,
                                                           &vehicle_group, SCENE_MAX_VEHICLES,
-                                                          "what drives through the scene")};
+                                                          "what drives or walks through the scene")};
 
 TOOL_SECTION_OF(vehicles)
 
-_Static_assert(SCENE_MAX_VEHICLES *SCENE_MAX_WHEELS <= VIRGA_GROUND_MAX_CONTACTS, "all wheels fit into a frame");
+/* Numbers of all vehicles. */
+typedef struct vehicle_sums {
+    uint32_t wheels, feet, lamps;
+} vehicle_sums;
+
+static vehicle_sums count_all(const scene_file *scene)
+{
+    const scene_vehicles *all = scene_vehicles_of(scene);
+    vehicle_sums sums = {0};
+    for (uint32_t i = 0; i < all->vehicle_count; i++) {
+        sums.wheels += all->vehicles[i].wheel_count;
+        sums.feet += all->vehicles[i].foot_count;
+        sums.lamps += all->vehicles[i].lamp_count;
+    }
+    return sums;
+}
+
+static bool check_lamps(const scene_file *scene, uint32_t vehicle, char *error, size_t error_size)
+{
+    const scene_vehicle *v = &scene_vehicles_of(scene)->vehicles[vehicle];
+    char key[64];
+    for (uint32_t i = 0; i < v->lamp_count; i++) {
+        const scene_lamp *lamp = &v->lamps[i];
+        if (fabs(lamp->direction[0]) + fabs(lamp->direction[1]) + fabs(lamp->direction[2]) <= 0) {
+            snprintf(key, sizeof key, "vehicles.%u.lamps.%u.direction", vehicle, i);
+            return scene_file_refuse(scene, key, error, error_size, "expected a direction, got all zero");
+        }
+        if (lamp->outer_deg <= lamp->inner_deg) {
+            snprintf(key, sizeof key, "vehicles.%u.lamps.%u.outer_deg", vehicle, i);
+            return scene_file_refuse(scene, key, error, error_size, "expected more than inner_deg (%g), got %g",
+                                     lamp->inner_deg, lamp->outer_deg);
+        }
+    }
+    return true;
+}
 
 static bool check(const scene_file *scene, char *error, size_t error_size)
 {
@@ -65,24 +127,30 @@ static bool check(const scene_file *scene, char *error, size_t error_size)
         snprintf(key, sizeof key, "vehicles.%u.wheel_part", i);
         if (v->wheel_part && !v->file)
             return scene_file_refuse(scene, key, error, error_size, "expected file beside it");
+        snprintf(key, sizeof key, "vehicles.%u.pose_part", i);
+        if (v->pose_part && !v->file)
+            return scene_file_refuse(scene, key, error, error_size, "expected file beside it");
+        if (!check_lamps(scene, i, error, error_size))
+            return false;
     }
+    const vehicle_sums sums = count_all(scene);
+    if (sums.wheels + sums.feet > VIRGA_GROUND_MAX_CONTACTS)
+        return scene_file_refuse(scene, "vehicles", error, error_size, "expected at most %d wheels and feet, got %u",
+                                 VIRGA_GROUND_MAX_CONTACTS, sums.wheels + sums.feet);
+    if (sums.lamps && scene->light_count + sums.lamps > VIRGA_MAX_LIGHTS)
+        return scene_file_refuse(scene, "vehicles", error, error_size,
+                                 "expected at most %d lamps and lights of the scene, got %u", VIRGA_MAX_LIGHTS,
+                                 scene->light_count + sums.lamps);
     return true;
-}
-
-static uint32_t count_wheels(const scene_file *scene)
-{
-    const scene_vehicles *all = scene_vehicles_of(scene);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < all->vehicle_count; i++)
-        count += all->vehicles[i].wheel_count;
-    return count;
 }
 
 static void print(const scene_file *scene)
 {
     const scene_vehicles *all = scene_vehicles_of(scene);
+    const vehicle_sums sums = count_all(scene);
     if (all->vehicle_count)
-        printf("  vehicles     %u with %u wheels\n", all->vehicle_count, count_wheels(scene));
+        printf("  vehicles     %u with %u wheels, %u feet and %u lamps\n", all->vehicle_count, sums.wheels, sums.feet,
+               sums.lamps);
 }
 
 static bool is_used(const scene_file *scene)
@@ -103,17 +171,20 @@ typedef struct vehicle {
     part body, wheels[SCENE_MAX_WHEELS];
     host_buffer sheltering; /* vertices at rest, for rain */
     uint32_t first_occluder, occluder_count;
+    walk_poses poses;
 } vehicle;
 
 typedef struct vehicles_state {
     vehicle vehicles[SCENE_MAX_VEHICLES];
-    virga_wheel wheels[SCENE_MAX_VEHICLES * SCENE_MAX_WHEELS]; /* of the frame */
+    virga_wheel wheels[VIRGA_GROUND_MAX_CONTACTS]; /* of the frame */
+    virga_foot feet[VIRGA_GROUND_MAX_CONTACTS];    /* likewise */
 } vehicles_state;
 
 static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
 {
     (void)state, (void)error, (void)error_size;
-    def->with_contacts = def->with_splash && count_wheels(s->scene) > 0;
+    const vehicle_sums sums = count_all(s->scene);
+    def->with_contacts = def->with_splash && sums.wheels + sums.feet > 0;
     return true;
 }
 
@@ -179,7 +250,10 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
         vehicle *v = &all->vehicles[i];
         if (!given->file)
             continue;
-        if (!load_part(s, given, false, &v->body, error, error_size) || !add_occluders(s, v, error, error_size))
+        if (!load_part(s, given, false, &v->body, error, error_size) ||
+            (given->pose_part && !shot_blame_input(s, walk_poses_take(&v->body.mesh, v->body.indices, given->pose_part,
+                                                                      &v->poses, error, error_size))) ||
+            !add_occluders(s, v, error, error_size))
             return false;
         for (uint32_t k = 0; given->wheel_part && k < given->wheel_count; k++)
             if (!load_part(s, given, true, &v->wheels[k], error, error_size))
@@ -200,6 +274,7 @@ static void close_state(shot *s, void *state)
     vehicles_state *all = state;
     for (uint32_t i = 0; i < SCENE_MAX_VEHICLES; i++) {
         close_part(s, &all->vehicles[i].body);
+        walk_poses_free(&all->vehicles[i].poses);
         for (uint32_t k = 0; k < SCENE_MAX_WHEELS; k++)
             close_part(s, &all->vehicles[i].wheels[k]);
         host_buffer_destroy(&s->device, &all->vehicles[i].sheltering);
@@ -254,32 +329,6 @@ static bool stands(const virga_wheel *wheel)
     return hypot((double)wheel->axle[0], (double)wheel->axle[2]) > 0.1;
 }
 
-static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
-                       char *error, size_t error_size)
-{
-    vehicles_state *all = state;
-    const scene_vehicles *from = scene_vehicles_of(s->scene);
-    uint32_t count = 0, id = 0;
-    (void)camera, (void)error, (void)error_size;
-    for (uint32_t i = 0; i < from->vehicle_count; i++) {
-        const vehicle *v = &all->vehicles[i];
-        for (uint32_t k = 0; k < v->occluder_count; k++)
-            transform_at(&from->vehicles[i], time_s, s->occluders[v->first_occluder + k].world_from_mesh);
-        for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
-            virga_wheel *wheel = &all->wheels[count];
-            *wheel = virga_default_wheel();
-            wheel->id = id++;
-            place_wheel(&from->vehicles[i], k, time_s, wheel);
-            count += stands(wheel);
-        }
-    }
-    frame->wheels = all->wheels;
-    frame->wheel_count = count;
-    return true;
-}
-
-/* ---- picture -------------------------------------------------------------------------------------------------- */
-
 /* Length of its path up to a time. */
 static double way_m(const scene_vehicle *from, double time_s)
 {
@@ -292,6 +341,94 @@ static double way_m(const scene_vehicle *from, double time_s)
     }
     return way;
 }
+
+static void sole_at(const scene_vehicle *from, const scene_foot *foot, double time_s, float transform[12],
+                    double sole_m[3])
+{
+    double offset_m[2], local_m[3];
+    walk_foot_at(way_m(from, time_s) / from->stride_m - foot->lands, from->stride_m, offset_m);
+    memcpy(local_m, foot->sole_m, sizeof local_m);
+    local_m[2] += offset_m[0];
+    local_m[1] += offset_m[1];
+    transform_at(from, time_s, transform);
+    to_world(transform, local_m, sole_m);
+}
+
+static void place_foot(const scene_vehicle *from, uint32_t index, double time_s, virga_foot *out)
+{
+    const scene_foot *given = &from->feet[index];
+    float now[12], before[12];
+    double then_m[3];
+    sole_at(from, given, time_s - STEP_S, before, then_m);
+    sole_at(from, given, time_s, now, out->sole_m);
+    out->length_m = (float)given->length_m;
+    out->width_m = (float)given->width_m;
+    for (int axis = 0; axis < 3; axis++) {
+        out->velocity_m_s[axis] = (float)fmin(fmax((out->sole_m[axis] - then_m[axis]) / STEP_S, -1000), 1000);
+        out->heading[axis] = -now[4 * axis + 2];
+    }
+}
+
+/* Behind the lights of the scene. */
+static void place_lamps(shot *s, double time_s)
+{
+    const scene_vehicles *all = scene_vehicles_of(s->scene);
+    uint32_t count = s->scene->light_count;
+    for (uint32_t i = 0; i < all->vehicle_count; i++)
+        for (uint32_t k = 0; k < all->vehicles[i].lamp_count; k++) {
+            const scene_lamp *from = &all->vehicles[i].lamps[k];
+            virga_light *to = &s->lighting.lights[count++];
+            float at[12];
+            transform_at(&all->vehicles[i], time_s, at);
+            to_world(at, from->position_m, to->position_m);
+            for (int c = 0; c < 3; c++) {
+                to->intensity[c] = (float)(from->color[c] * from->intensity_w_sr);
+                to->direction[c] = 0;
+                for (int n = 0; n < 3; n++)
+                    to->direction[c] += at[4 * c + n] * (float)from->direction[n];
+            }
+            to->range_m = (float)from->range_m;
+            to->cos_inner = (float)cos(from->inner_deg * M_PI / 180);
+            to->cos_outer = (float)cos(from->outer_deg * M_PI / 180);
+        }
+    s->lighting.light_count = count;
+}
+
+static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
+                       char *error, size_t error_size)
+{
+    vehicles_state *all = state;
+    const scene_vehicles *from = scene_vehicles_of(s->scene);
+    uint32_t count = 0, feet = 0, id = 0;
+    place_lamps(s, time_s);
+    (void)camera, (void)error, (void)error_size;
+    for (uint32_t i = 0; i < from->vehicle_count; i++) {
+        const vehicle *v = &all->vehicles[i];
+        for (uint32_t k = 0; k < v->occluder_count; k++)
+            transform_at(&from->vehicles[i], time_s, s->occluders[v->first_occluder + k].world_from_mesh);
+        for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
+            virga_wheel *wheel = &all->wheels[count];
+            *wheel = virga_default_wheel();
+            wheel->id = id++;
+            place_wheel(&from->vehicles[i], k, time_s, wheel);
+            count += stands(wheel);
+        }
+        for (uint32_t k = 0; k < from->vehicles[i].foot_count; k++) {
+            virga_foot *foot = &all->feet[feet];
+            *foot = virga_default_foot();
+            foot->id = id++;
+            place_foot(&from->vehicles[i], k, time_s, foot);
+            feet += hypot((double)foot->heading[0], (double)foot->heading[2]) > 0.1;
+        }
+    }
+    frame->feet = all->feet;
+    frame->foot_count = feet;
+    frame->wheels = all->wheels;
+    frame->wheel_count = count;
+    return true;
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* It turns about its axle, x; on the left it is turned around, so that its outer side is outside. */
 static void wheel_transform(const scene_vehicle *from, uint32_t index, double time_s, const float vehicle_at[12],
@@ -315,21 +452,31 @@ static void wheel_transform(const scene_vehicle *from, uint32_t index, double ti
     }
 }
 
-static bool move_part(const part *p, const float transform[12], VkCommandBuffer cmd, char *error, size_t error_size)
+/* `poses` may be NULL; then it is stiff. */
+static bool move_part(part *p, const walk_poses *poses, double stride, const float transform[12], VkCommandBuffer cmd,
+                      char *error, size_t error_size)
 {
     if (!p->mesh.vertex_count)
         return true;
     host_vertex *vertices = malloc(p->mesh.vertex_count * sizeof *vertices);
     if (!vertices)
         return host_fail(error, error_size, "no memory for a vehicle");
+    memcpy(vertices, p->vertices, p->mesh.vertex_count * sizeof *vertices);
+    if (poses && poses->pose_count)
+        walk_poses_blend(poses, p->vertices, stride, vertices);
+    for (int row = 0; row < 3; row++) {
+        p->mesh.low[row] = FLT_MAX;
+        p->mesh.high[row] = -FLT_MAX;
+    }
     for (uint32_t i = 0; i < p->mesh.vertex_count; i++) {
-        const host_vertex *from = &p->vertices[i];
-        vertices[i] = *from;
+        const host_vertex from = vertices[i];
         for (int row = 0; row < 3; row++) {
             const float *m = &transform[4 * row];
-            vertices[i].position[row] =
-                m[0] * from->position[0] + m[1] * from->position[1] + m[2] * from->position[2] + m[3];
-            vertices[i].normal[row] = m[0] * from->normal[0] + m[1] * from->normal[1] + m[2] * from->normal[2];
+            const float at = m[0] * from.position[0] + m[1] * from.position[1] + m[2] * from.position[2] + m[3];
+            vertices[i].position[row] = at;
+            vertices[i].normal[row] = m[0] * from.normal[0] + m[1] * from.normal[1] + m[2] * from.normal[2];
+            p->mesh.low[row] = fminf(p->mesh.low[row], at);
+            p->mesh.high[row] = fmaxf(p->mesh.high[row], at);
         }
     }
     host_mesh_move(cmd, &p->mesh, vertices);
@@ -341,14 +488,18 @@ static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camer
 {
     vehicles_state *all = state;
     const scene_vehicles *from = scene_vehicles_of(s->scene);
+    place_lamps(s, camera_s);
+    host_renderer_set_lights(s->renderer, s->lighting.lights, s->lighting.light_count);
     for (uint32_t i = 0; i < from->vehicle_count; i++) {
         float body[12], wheel[12];
         transform_at(&from->vehicles[i], camera_s, body);
-        if (!move_part(&all->vehicles[i].body, body, cmd, error, error_size))
+        const scene_vehicle *given = &from->vehicles[i];
+        if (!move_part(&all->vehicles[i].body, &all->vehicles[i].poses, way_m(given, camera_s) / given->stride_m, body,
+                       cmd, error, error_size))
             return false;
         for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
             wheel_transform(&from->vehicles[i], k, camera_s, body, wheel);
-            if (!move_part(&all->vehicles[i].wheels[k], wheel, cmd, error, error_size))
+            if (!move_part(&all->vehicles[i].wheels[k], NULL, 0, wheel, cmd, error, error_size))
                 return false;
         }
     }

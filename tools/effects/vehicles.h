@@ -10,12 +10,25 @@ extern "C" {
 
 #define SCENE_MAX_VEHICLES 8
 #define SCENE_MAX_WHEELS   8
+#define SCENE_MAX_FEET     4
+#define SCENE_MAX_LAMPS    8
 
 /* Relative to the vehicle: x to the right, y up, z back. */
 typedef struct scene_wheel {
     double contact_m[3]; /* where it touches the ground */
     double radius_m, width_m, patch_m, open_deg;
 } scene_wheel;
+
+typedef struct scene_foot {
+    double sole_m[3]; /* its middle, at rest */
+    double lands;     /* at this part of a stride */
+    double length_m, width_m;
+} scene_foot;
+
+/* A cone of light. */
+typedef struct scene_lamp {
+    double position_m[3], direction[3], color[3], intensity_w_sr, range_m, inner_deg, outer_deg;
+} scene_lamp;
 
 typedef struct scene_vehicle {
     char *name;
@@ -27,6 +40,12 @@ typedef struct scene_vehicle {
     uint32_t key_count;
     scene_wheel *wheels;
     uint32_t wheel_count;
+    char *pose_part; /* poses of a stride have this and a number in their names; NULL: the model is stiff */
+    double stride_m; /* two steps */
+    scene_foot *feet;
+    uint32_t foot_count;
+    scene_lamp *lamps;
+    uint32_t lamp_count;
 } scene_vehicle;
 
 typedef struct scene_vehicles {
