@@ -24,7 +24,7 @@ MATERIALS = [
     {"name": "cloth_hat", "colour": (0.09, 0.035, 0.03), "rough": 0.95},
     {"name": "cloth_trousers", "colour": (0.030, 0.032, 0.038), "rough": 0.85},
     {"name": "cloth_umbrella", "colour": (0.26, 0.016, 0.018), "rough": 0.42, "two_sided": True},
-    {"name": "plastic_raincoat", "colour": (0.52, 0.32, 0.035), "rough": 0.28},
+    {"name": "plastic_raincoat", "colour": (0.44, 0.27, 0.03), "rough": 0.28},
     {"name": "rubber_boots", "colour": (0.022, 0.024, 0.022), "rough": 0.30},
     {"name": "rubber_gloves", "colour": (0.028, 0.020, 0.016), "rough": 0.6},
     {"name": "person_hair", "colour": (0.030, 0.019, 0.012), "rough": 0.6},
