@@ -218,6 +218,31 @@ static void edges_keep_all_sub_frames(void **state)
     }
 }
 
+/* Within the bounds of what moves by itself, and of its mirror image, each sub-frame is shaded; elsewhere one is. */
+static void what_moves_by_itself_is_shaded_each_time_and_the_rest_once(void **state)
+{
+    scene *s = *state;
+    const float high = s->post.high[0], low = s->post.low[0];
+    s->post.moves = true;
+    draw(s, (way){.shares = 1});
+    const float dark = red(s->picture.color, FLAT_X, FLAT_Y);
+    draw(s, (way){.shares = 1, .flashes = true});
+    const float quarter = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    draw(s, (way){.shares = SHARE, .flashes = true});
+    const float beside = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    s->post.low[0] = low - 30;
+    s->post.high[0] = high + 30;
+    draw(s, (way){.shares = SHARE, .flashes = true});
+    const float within = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    s->post.low[0] = low;
+    s->post.high[0] = high;
+    s->post.moves = false;
+    printf("light of the lamp: %.5f in a quarter, %.5f beside, %.5f within\n", (double)quarter, (double)beside,
+           (double)within);
+    assert_float_equal(beside, 4.0f * quarter, 0.001);
+    assert_float_equal(within, quarter, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +250,7 @@ int main(void)
         cmocka_unit_test(what_moves_is_shaded_each_time),
         cmocka_unit_test(narrow_things_are_not_missed),
         cmocka_unit_test(edges_keep_all_sub_frames),
+        cmocka_unit_test(what_moves_by_itself_is_shaded_each_time_and_the_rest_once),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

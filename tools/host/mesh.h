@@ -55,7 +55,7 @@ typedef struct host_mesh {
     uint32_t texture_count;
     float low[3], high[3];
     bool apart; /* moves with the camera: it casts no shade in the skylight and is not mirrored. Default false */
-    bool moves; /* it casts no shade in the skylight, which is made once. Default false */
+    bool moves; /* it casts no shade in the skylight, made once; who moves it sets low and high. Default false */
 } host_mesh;
 
 /* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. Missing normals and UVs are replaced; so are

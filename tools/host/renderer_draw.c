@@ -465,11 +465,19 @@ bool host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_tar
     return !d.failed;
 }
 
-/* What moves by itself is not known to host_reuse: velocities are the camera's. */
 static bool may_share(const host_renderer *r, const host_target *target, const host_camera *camera)
 {
-    return camera->shares > 1 && r->reuse.width == target->width && r->reuse.height == target->height &&
-           !anything_moves(r);
+    return camera->shares > 1 && r->reuse.width == target->width && r->reuse.height == target->height;
+}
+
+/* Velocities are the camera's: what moves by itself is told apart by its bounds. */
+static host_moving find_moving(const host_renderer *r, const host_camera *camera)
+{
+    host_moving moving = {0};
+    for (uint32_t i = 0; i < r->entry_count; i++)
+        if (r->entries[i].mesh->moves)
+            host_moving_add(&moving, r->entries[i].mesh, camera, r->mirror_m);
+    return moving;
 }
 
 /* Over the plate of the sub-frame before. */
@@ -479,7 +487,8 @@ static void draw_following(drawing *d, const host_camera *camera)
     const float shift_px[2] = {r->found_px[0] - camera->jitter_px[0], r->found_px[1] - camera->jitter_px[1]};
     host_reuse_begin_depth(&r->reuse, d->cmd);
     draw_depth(d);
-    host_reuse_end_depth(&r->reuse, d->cmd, shift_px);
+    const host_moving moving = find_moving(r, camera);
+    host_reuse_end_depth(&r->reuse, d->cmd, shift_px, &moving);
     host_reuse_begin_shade(&r->reuse, d->cmd);
     bind_frame(r, d->cmd);
     d->bound = VK_NULL_HANDLE;
@@ -493,8 +502,10 @@ static void draw_first(drawing *d, const host_target *target, const host_camera 
     host_target_begin_plate(target, d->cmd);
     draw_scene(d);
     host_target_end_plate(target, d->cmd);
-    if (shares)
-        host_reuse_find(&r->reuse, d->cmd, target, camera->part);
+    if (shares) {
+        const host_moving moving = find_moving(r, camera);
+        host_reuse_find(&r->reuse, d->cmd, target, camera->part, &moving);
+    }
     r->found = shares;
     memcpy(r->found_px, camera->jitter_px, sizeof r->found_px);
 }

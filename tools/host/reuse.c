@@ -143,10 +143,13 @@ static void dispatch(const host_reuse *u, VkCommandBuffer cmd, VkPipeline pipeli
     vkCmdDispatch(cmd, (blocks(u->width) + GROUP - 1) / GROUP, (blocks(u->height) + GROUP - 1) / GROUP, 1);
 }
 
-void host_reuse_find(const host_reuse *u, VkCommandBuffer cmd, const host_target *target, float part)
+void host_reuse_find(const host_reuse *u, VkCommandBuffer cmd, const host_target *target, float part,
+                     const host_moving *moving)
 {
     const float moved = MOVED_PX / (part > 1e-6f ? part : 1e-6f);
-    const struct host_reuse_gpu push = {u->width, u->height, CONTRAST, EDGE, moved * moved, 0, 0};
+    struct host_reuse_gpu push = {
+        .width = u->width, .height = u->height, .contrast = CONTRAST, .edge = EDGE, .moved2 = moved * moved};
+    host_moving_push(moving, &push);
     host_target_begin_read(target, cmd, HOST_VELOCITY);
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                         VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
@@ -159,9 +162,11 @@ void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
     host_pass_begin(cmd, u->pass, u->depth_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
 }
 
-void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2])
+void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2], const host_moving *moving)
 {
-    const struct host_reuse_gpu push = {u->width, u->height, 0, 0, 0, shift_px[0], shift_px[1]};
+    struct host_reuse_gpu push = {
+        .width = u->width, .height = u->height, .shift_x = shift_px[0], .shift_y = shift_px[1]};
+    host_moving_push(moving, &push);
     const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     vkCmdEndRenderPass(cmd);
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | compute, VK_ACCESS_SHADER_WRITE_BIT, compute,

@@ -109,7 +109,8 @@ struct host_contact_gpu { /* push constants */
 
 /* ---- shading that sub-frames share -------------------------------------------------------------------------- */
 
-#define HOST_REUSE_SIDE 4 /* pixels along a side of a block */
+#define HOST_REUSE_SIDE  4 /* pixels along a side of a block */
+#define HOST_REUSE_RECTS 8
 
 struct host_reuse_gpu { /* push constants */
     HOST_UINT width;
@@ -119,6 +120,8 @@ struct host_reuse_gpu { /* push constants */
     float moved2;   /* square of the pixels that it may move in a frame */
     float shift_x;  /* pixels from where the sub-frame sees a point to where that did which it shares with */
     float shift_y;
+    HOST_UINT rect_count;                  /* where something moves by itself: nothing is shared there */
+    HOST_UINT rects[2 * HOST_REUSE_RECTS]; /* low and high corners: x, and y from bit 16 on */
 };
 
 /* ---- sums of sub-frames ------------------------------------------------------------------------------------- */

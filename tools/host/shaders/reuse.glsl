@@ -13,6 +13,18 @@ const float REUSE_MOVED_PX = 0.1; // what the eye moves meanwhile, beyond what s
 // 2 parts of a thousand of the distance: 1 - depth falls as 1 / distance.
 float reuse_tolerance(float depth) { return 0.002 * (1.0 - depth) + 1e-6; }
 
+// Whether something moves by itself in a block.
+bool reuse_moves(uvec2 first)
+{
+    bool moves = false;
+    for (uint i = 0u; i < reuse.rect_count; i++) {
+        const uint low = reuse.rects[2u * i], high = reuse.rects[2u * i + 1u];
+        moves = moves || (first.x + HOST_REUSE_SIDE > (low & 0xffffu) && first.y + HOST_REUSE_SIDE > low >> 16 &&
+                          first.x < (high & 0xffffu) && first.y < high >> 16);
+    }
+    return moves;
+}
+
 uint reuse_block(uvec2 pixel)
 {
     const uint row = (reuse.width + HOST_REUSE_SIDE - 1u) / HOST_REUSE_SIDE;

@@ -25,5 +25,5 @@ void main()
         if (at == min(at, last))
             apart = max(apart, abs(plane.x + dot(plane.yz, vec2(inside) + from) - depth));
     }
-    planes[block] = apart <= plane.w ? plane : REUSE_NOTHING;
+    planes[block] = apart <= plane.w && !reuse_moves(first) ? plane : REUSE_NOTHING;
 }

@@ -59,7 +59,7 @@ void main()
         moved2 = max(moved2, dot(moved, moved));
     }
     const float wide = reuse_tolerance(corner), allowed = apart < wide ? reuse.contrast : reuse.edge;
-    const bool same = most <= allowed && moved2 <= reuse.moved2;
+    const bool same = most <= allowed && moved2 <= reuse.moved2 && !reuse_moves(first);
     apart += wide + REUSE_MOVED_PX * (abs(slope.x) + abs(slope.y));
     planes[reuse_block(first)] = same ? vec4(corner, slope, apart) : REUSE_NOTHING;
 }

@@ -1,0 +1,22 @@
+/* moving.h - where on the picture meshes are that move by themselves: there sub-frames share no shading. */
+#ifndef VIRGA_HOST_MOVING_H
+#define VIRGA_HOST_MOVING_H
+
+#include "camera.h"
+#include "mesh.h"
+#include "shaders/frame_gpu.h"
+
+typedef struct host_moving {
+    uint32_t count;
+    struct {
+        int32_t low[2], high[2]; /* pixels; the high ones are outside */
+    } rects[HOST_REUSE_RECTS];
+} host_moving;
+
+/* Adds the rectangle around a mesh, from its bounds, and around what a mirror at the height `mirror_m` shows of it. */
+void host_moving_add(host_moving *moving, const host_mesh *mesh, const host_camera *camera, double mirror_m);
+
+/* Packs them for shaders. */
+void host_moving_push(const host_moving *moving, struct host_reuse_gpu *push);
+
+#endif
