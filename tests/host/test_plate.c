@@ -71,11 +71,9 @@ static bool make_plane(scene *s)
 }
 
 /* From (-1, 1, -1) to (1, 3, 1), wound so that a culling pipeline shows the outside. */
-static bool make_cube(scene *s)
+static void fill_cube(host_vertex v[24], uint32_t indices[36])
 {
-    host_vertex v[24];
-    uint32_t indices[36];
-    memset(v, 0, sizeof v);
+    memset(v, 0, 24 * sizeof *v);
     for (uint32_t face = 0; face < 6; face++) {
         uint32_t axis = face / 2, b = (axis + 1) % 3, c = (axis + 2) % 3;
         float side = face % 2 ? 1.0f : -1.0f;
@@ -92,6 +90,13 @@ static bool make_cube(scene *s)
         for (uint32_t i = 0; i < 6; i++)
             indices[face * 6 + i] = face * 4 + quad[i];
     }
+}
+
+static bool make_cube(scene *s)
+{
+    host_vertex v[24];
+    uint32_t indices[36];
+    fill_cube(v, indices);
     host_material material = matte(CUBE_ALBEDO);
     return host_mesh_create(&s->base.device, v, 24, indices, 36, &material, &s->cube, s->base.error,
                             sizeof s->base.error);
@@ -361,6 +366,52 @@ static void ground_below_things_is_in_their_shade(void **state)
     assert_true(draw(s, 1));
     assert_float_equal(s->picture.color[under * 4], before[0], 1e-6);
     s->cube.primitives[0].ground = true;
+}
+
+/* Moves the cube along z, and draws. */
+static float light_with_cube_at(scene *s, float z_m, size_t pixel)
+{
+    host_vertex v[24];
+    uint32_t indices[36];
+    VkCommandBuffer cmd;
+    fill_cube(v, indices);
+    for (int i = 0; i < 24; i++)
+        v[i].position[2] += z_m;
+    s->cube.low[2] = z_m - 1;
+    s->cube.high[2] = z_m + 1;
+    assert_true(host_begin_frame(&s->base.device, &cmd, s->base.error, sizeof s->base.error));
+    host_mesh_move(cmd, &s->cube, v);
+    assert_true(host_submit(&s->base.device, s->base.error, sizeof s->base.error));
+    assert_true(draw(s, 1));
+    return s->picture.color[pixel * 4];
+}
+
+/* While it is 100 m away the ground has the light that it has without the map; then its shade is there again. */
+static void the_shade_of_a_thing_goes_with_it(void **state)
+{
+    scene *s = *state;
+    const double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    const size_t under = at(WIDTH / 2 - (int)(focal_px * 1.2 / 8.0), HEIGHT / 2 + (int)(focal_px * 1.5 / 8.0));
+    assert_true(draw(s, 1));
+    const float open = s->picture.color[under * 4];
+    s->cube.primitives[0].ground = false;
+    host_renderer_set_contact(s->renderer, true);
+    const virga_ground_maps maps = maps_of(&s->dry[0], &s->dry[1], &s->dry[2]); /* made above */
+    host_renderer_set_ground(s->renderer, &maps);
+    assert_true(draw(s, 1));
+    const float shaded = s->picture.color[under * 4];
+    s->cube.moves = true;
+    light_with_cube_at(s, 0.1f, under); /* from now on it moves */
+    const float away = light_with_cube_at(s, -100, under), back = light_with_cube_at(s, 0, under);
+    s->cube.moves = false;
+    s->cube.primitives[0].ground = true;
+    host_renderer_set_contact(s->renderer, false);
+    host_renderer_set_ground(s->renderer, NULL);
+    printf("%.3f of the light is left below it, %.3f while it is away\n", (double)(shaded / open),
+           (double)(away / open));
+    assert_true(shaded < 0.95f * open);
+    assert_float_equal(away, open, 1e-3);
+    assert_float_equal(back, shaded, 1e-6);
 }
 
 static void sky_pixel(void **state)
@@ -694,6 +745,7 @@ int main(void)
         cmocka_unit_test(plane_pixel),
         cmocka_unit_test(shade_under_cube),
         cmocka_unit_test(ground_below_things_is_in_their_shade),
+        cmocka_unit_test(the_shade_of_a_thing_goes_with_it),
         cmocka_unit_test(contact_map_has_the_height_of_the_ground),
         cmocka_unit_test(sky_pixel),
         cmocka_unit_test(lamp_light),

@@ -15,6 +15,7 @@
 #define STEP_M   2.0 /* in steps, so that it is not made in every frame */
 #define EYES_M   1.6 /* of the camera above the ground, about */
 #define SLANT    0.25f
+#define NEAR_M   1.3 /* shade reaches so far */
 #define FLAT_M   1.0 /* ground with no more between its lowest and highest point has one height */
 
 static const VkDescriptorType kinds[HOST_CONTACT_MAPS + 1] = {
@@ -98,6 +99,15 @@ bool host_contact_place(host_contact *c, const host_camera *camera, const double
     for (int axis = 0; axis < 3; axis++)
         moved = moved || differ(before.low_m[axis], c->low_m[axis]);
     return !c->ready || moved;
+}
+
+bool host_contact_covers(const host_contact *c, const float low_m[3], const float high_m[3])
+{
+    bool covers = true;
+    for (int axis = 0; axis < 3; axis += 2)
+        covers = covers && (double)high_m[axis] > c->low_m[axis] - NEAR_M &&
+                 (double)low_m[axis] < c->low_m[axis] + SIDE_M + NEAR_M;
+    return covers;
 }
 
 /* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things

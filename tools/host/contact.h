@@ -2,8 +2,8 @@
  *
  * The skylight's voxels are wider than a metre. A map of the ground around the camera has what they leave out: the
  * share of the sky that things up to 1.3 m high and near take away. It is made from three maps of depth: the ground
- * and all else as seen from below, and all else from above. It depends on the camera's position alone. Things that move
- * are not in it.
+ * and all else as seen from below, and all else from above. It depends on the camera's position, and on what moves on
+ * it: then it is made once in each frame.
  */
 #ifndef VIRGA_HOST_CONTACT_H
 #define VIRGA_HOST_CONTACT_H
@@ -33,10 +33,11 @@ typedef struct host_contact {
     VkSampler sampler;
     VkPipeline gather;
 
-    bool ready;      /* it is made, so: */
-    double low_m[3]; /* its low corner, and the height of depth 0 as seen from below */
-    double height_m; /* from there to depth 1 */
-    double level_m;  /* about that of the ground: slanted looks move nothing there */
+    bool ready;       /* it is made, so: */
+    double low_m[3];  /* its low corner, and the height of depth 0 as seen from below */
+    double height_m;  /* from there to depth 1 */
+    double moving[3]; /* where what moves on it was, as a sum */
+    double level_m;   /* about that of the ground: slanted looks move nothing there */
 } host_contact;
 
 /* `pass` draws depth alone, as the skylight's does. */
@@ -46,6 +47,9 @@ void host_contact_destroy(host_device *device, host_contact *contact);
 /* Chooses the place of the map, for ground between two heights and a scene up to `high_m`. Returns whether it must be
  * made again. */
 bool host_contact_place(host_contact *contact, const host_camera *camera, const double ground_m[2], double high_m);
+
+/* Whether a box throws shade on the map where it is placed now. */
+bool host_contact_covers(const host_contact *contact, const float low_m[3], const float high_m[3]);
 
 /* Records how it is made: for each map begin, draws for each of its looks, end; then gather. HOST_CONTACT_UNDER has
  * HOST_CONTACT_LOOKS looks, the others one. */

@@ -214,7 +214,7 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     }
 }
 
-enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2, DRAW_GROUND = 4, DRAW_NO_GROUND = 8 };
+enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2, DRAW_GROUND = 4, DRAW_NO_GROUND = 8, DRAW_MOVING = 16 };
 
 /* Draws everything but glass into a depth map: of one direction of the sky, or of the rain. */
 static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float map_from_world[16], int parts)
@@ -226,7 +226,7 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float ma
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_entry *entry = &r->entries[e];
         const host_mesh *mesh = entry->mesh;
-        if (mesh->apart || mesh->moves)
+        if (mesh->apart || (mesh->moves && !(parts & DRAW_MOVING)))
             continue;
         vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
         vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
@@ -304,17 +304,41 @@ static void find_ground(const host_renderer *r, const double camera_m[3], double
         heights_m[i] = best[0] <= best[1] ? best[i] : 0;
 }
 
+/* Whether what moves by itself has done so on the map since it was made. Sub-frames of a frame share one. */
+static bool contact_has_moved(host_renderer *r, const host_camera *camera)
+{
+    host_contact *c = &r->contact;
+    double sum[3] = {0};
+    for (uint32_t e = 0; e < r->entry_count; e++) {
+        const host_mesh *mesh = r->entries[e].mesh;
+        if (!mesh->moves || !host_contact_covers(c, mesh->low, mesh->high))
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            sum[axis] += (1 + e) * ((double)mesh->low[axis] + (double)mesh->high[axis]);
+    }
+    const bool moved = memcmp(sum, c->moving, sizeof sum) != 0;
+    if (!moved || (c->ready && camera->sample > 0))
+        return false;
+    memcpy(c->moving, sum, sizeof sum);
+    return true;
+}
+
 /* Only wet ground has it. */
 static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
 {
     static const int parts[HOST_CONTACT_MAPS] = {[HOST_CONTACT_GROUND] = DRAW_GROUND,
-                                                 [HOST_CONTACT_UNDER] = DRAW_NO_GROUND,
-                                                 [HOST_CONTACT_OVER] = DRAW_NO_GROUND};
+                                                 [HOST_CONTACT_UNDER] = DRAW_NO_GROUND | DRAW_MOVING,
+                                                 [HOST_CONTACT_OVER] = DRAW_NO_GROUND | DRAW_MOVING};
     float low[3], high[3], map_from_world[16];
     double ground_m[2];
     find_bounds(r, low, high);
     find_ground(r, camera->position_m, HOST_CONTACT_NEAR_M, ground_m);
-    if (!r->ground.cells || !r->has_contact || !host_contact_place(&r->contact, camera, ground_m, (double)high[1]))
+    if (!r->ground.cells || !r->has_contact)
+        return;
+    for (uint32_t e = 0; e < r->entry_count; e++) /* these are not in the bounds */
+        high[1] = r->entries[e].mesh->moves ? fmaxf(high[1], r->entries[e].mesh->high[1]) : high[1];
+    const bool placed = host_contact_place(&r->contact, camera, ground_m, (double)high[1]);
+    if (!contact_has_moved(r, camera) && !placed)
         return;
     host_label_begin(r->device, cmd, "contact");
     for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
