@@ -78,6 +78,8 @@ enum {
     COUNT_VIEWS,
     COUNT_CIRCLES_WIDTH,
     COUNT_CIRCLES_HEIGHT,
+    COUNT_COARSE_COLUMNS,
+    COUNT_COARSE_ROWS,
 };
 
 /* Blocks along a side with a ring around them, up to whole workgroups. */
@@ -105,6 +107,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_COLUMNS] = (width + step - 1) / step;
     counts[COUNT_ROWS] = (height + step - 1) / step;
     count_blocks(counts);
+    counts[COUNT_COARSE_COLUMNS] = def->in_place ? (counts[COUNT_COLUMNS] + 1) / 2 : 0;
+    counts[COUNT_COARSE_ROWS] = def->in_place ? (counts[COUNT_ROWS] + 1) / 2 : 0;
     counts[COUNT_CIRCLES_WIDTH] = def->max_width - width;
     counts[COUNT_CIRCLES_HEIGHT] = def->max_height - height;
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
@@ -141,6 +145,8 @@ static const virga_effect_image images[] = {
      VIRGA_LENS_BLOCK_KINDS *VIRGA_LENS_BLOCK_PARTS, VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
+    {"lens.coarse_fields", AT(coarse), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COARSE_COLUMNS,
+     COUNT_COARSE_ROWS, VIRGA_LENS_FIRST_LAYER, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_PICTURE_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.circles", AT(circles), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -186,6 +192,8 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
     [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields */
+    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},   /* 33 */
+    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},        /* 34 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -201,6 +209,8 @@ static const virga_effect_pass passes[] = {
     {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
     PASS(gather, .forms = LENS_GATHERS),
     PASS(narrow, .forms = LENS_NARROWS),
+    {"lens.coarse", AT(coarse_gather), VIRGA_SPIRV_ROW(lens_coarse_comp), .forms = LENS_NARROWS},
+    PASS(finer, .forms = LENS_NARROWS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
@@ -220,23 +230,41 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
-#define NARROW_SHARED_BYTES 24640 /* of shared memory, in shaders/lens/narrow.comp */
+#define NARROW_SHARED_BYTES 24640 /* of shared memory, in shaders/lens/narrow.glsl */
 
-bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings)
+static bool has_memory(const virga_context *context)
+{
+    return context->properties.limits.maxComputeSharedMemorySize >= NARROW_SHARED_BYTES;
+}
+
+lens_way lens_way_of(const virga_lens *lens, const virga_lens_settings *settings)
 {
     const virga_context *context = lens->base.context;
-    return lens->def.half_resolution && !context->for_software &&
-           context->properties.limits.maxComputeSharedMemorySize >= NARROW_SHARED_BYTES &&
-           settings->max_radius_px <= 2 * VIRGA_LENS_FINE;
+    if (!lens->def.half_resolution || lens->def.circles || context->for_software || !has_memory(context))
+        return LENS_WAY_ANY;
+    if (settings->max_radius_px <= 2 * VIRGA_LENS_FINE)
+        return LENS_WAY_NARROW;
+    return lens->def.in_place && settings->max_radius_px <= (float)VIRGA_LENS_COARSE_MOST ? LENS_WAY_WIDE
+                                                                                          : LENS_WAY_ANY;
+}
+
+/* Whether a form of the passes for some way is ever recorded. */
+static bool narrow_form_used(const virga_lens *lens, lens_way way, size_t member, uint32_t form)
+{
+    const bool alone = form & VIRGA_LENS_ALONE;
+    if (member == AT(narrow))
+        return way == LENS_WAY_NARROW && (!alone || lens->def.in_place);
+    return way == LENS_WAY_WIDE && alone;
 }
 
 /* Draws of a whole picture or a part of it, or those in place. */
 static uint32_t wanted_draws(const void *object, const void *settings)
 {
     const virga_lens *lens = object;
-    (void)settings;
-    return lens->def.in_place ? 1u << LENS_DRAW_TILES | 1u << LENS_DRAW_LAYERS | 1u << LENS_DRAW_SOFT
-                              : 1u << LENS_DRAW_PICTURE | 1u << LENS_DRAW_PART;
+    if (!lens->def.in_place)
+        return 1u << LENS_DRAW_PICTURE | 1u << LENS_DRAW_PART;
+    return 1u << LENS_DRAW_TILES | 1u << LENS_DRAW_LAYERS | 1u << LENS_DRAW_SOFT |
+           (lens_way_of(lens, settings) == LENS_WAY_WIDE ? 1u << LENS_DRAW_BOTH | 1u << LENS_DRAW_WIDE : 0);
 }
 
 static bool form_used(const void *object, const void *given, const virga_effect_pass *pass, uint32_t form)
@@ -254,8 +282,8 @@ static bool form_used(const void *object, const void *given, const virga_effect_
         return settings->style == VIRGA_LENS_STYLE_PAPER;
     if (member == AT(combine) && lens->def.in_place)
         return false;
-    if (member == AT(narrow))
-        return lens_is_narrow(lens, settings) && (lens->def.in_place || !(form & VIRGA_LENS_ALONE));
+    if (member == AT(narrow) || member == AT(coarse_gather) || member == AT(finer))
+        return narrow_form_used(lens, lens_way_of(lens, settings), member, form);
     if (member != AT(tile) && member != AT(combine))
         return true;
     const bool sharp_or_blurred = kind == VIRGA_LENS_ALL_SHARP || kind == VIRGA_LENS_TILES_BLURRED;
@@ -310,8 +338,12 @@ static void describe(const void *object, char *line, size_t size)
     const char *how = lens->def.in_place          ? ", blurred at half resolution, in place"
                       : lens->def.half_resolution ? ", blurred at half resolution"
                                                   : "";
-    snprintf(line, size, "lens: %s of up to %u x %u pixels%s", lens->def.circles ? "circles of confusion" : "pictures",
-             lens->def.max_width, lens->def.max_height, lens->def.circles ? "" : how);
+    const virga_context *context = lens->base.context;
+    const bool halved = lens->def.half_resolution && !lens->def.circles;
+    const bool lacks = halved && !context->for_software && !has_memory(context);
+    snprintf(line, size, "lens: %s of up to %u x %u pixels%s%s",
+             lens->def.circles ? "circles of confusion" : "pictures", lens->def.max_width, lens->def.max_height,
+             lens->def.circles ? "" : how, lacks ? ", with the passes for little shared memory" : "");
 }
 
 static void lens_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)

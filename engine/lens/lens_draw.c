@@ -180,13 +180,21 @@ static uint32_t depth_layers(const virga_lens_gpu *view)
 /* Whether one pass gathers. */
 static bool is_narrow(const virga_lens *lens, const virga_lens_gpu *view)
 {
-    return !view->on_scene && lens_is_narrow(lens, &lens->settings);
+    return !view->on_scene && lens_way_of(lens, &lens->settings) == LENS_WAY_NARROW;
 }
 
-/* Whether it is the only one for the scene. Layers with depths need to know what reaches each tile. */
+/* Whether two do, of which one has what is wide. Layers that are out of focus need the other passes. */
+static bool is_wide(const virga_lens *lens, const virga_lens_gpu *view)
+{
+    return !view->on_scene && view->sharp_layers == (1u << view->layers) - 1 && !view->all_sharp &&
+           lens_way_of(lens, &lens->settings) == LENS_WAY_WIDE;
+}
+
+/* Whether no other pass is needed for the scene. Layers with depths need to know what reaches each tile. */
 static bool is_alone(const virga_lens *lens, const virga_lens_gpu *view)
 {
-    return lens->def.in_place && !view->all_sharp && is_narrow(lens, view) && !depth_layers(view);
+    return is_wide(lens, view) ||
+           (lens->def.in_place && !view->all_sharp && is_narrow(lens, view) && !depth_layers(view));
 }
 
 static virga_result push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
@@ -211,7 +219,8 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
                                                           .height = filled->height,
                                                           .layers = layer_count,
                                                           .all_sharp = filled->all_sharp,
-                                                          .tiles = is_alone(lens, filled) ? tiles : 0};
+                                                          .tiles = is_alone(lens, filled) ? tiles : 0,
+                                                          .wide = is_wide(lens, filled)};
     return result;
 }
 
@@ -240,6 +249,8 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
                                              : (virga_bound){.view = lens->fields->layer_views[VIRGA_LENS_FAR],
                                                              .image_layout = VK_IMAGE_LAYOUT_GENERAL,
                                                              .sampler = context->linear};
+    bound[LENS_BIND_COARSE_WRITTEN] = bound[LENS_BIND_COARSE] =
+        lens->coarse ? in_general(lens->coarse, context->linear) : out;
     if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
         bound[LENS_BIND_FOCUS] =
             (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};
@@ -371,10 +382,17 @@ static void record_narrow(virga_lens *lens, VkCommandBuffer cmd, const virga_len
 {
     enum { TILES = 2 }; /* of a workgroup, beside each other */
     virga_context *context = lens->base.context;
+    const bool wide = is_wide(lens, view);
     const uint32_t form =
         shaped | (is_linear(view) ? VIRGA_LENS_NARROW_LINEAR : 0) | (is_alone(lens, view) ? VIRGA_LENS_ALONE : 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.narrow");
-    virga_dispatch_2d(context, cmd, lens->narrow[form], (view->tile_columns + TILES - 1) / TILES, view->tile_rows);
+    if (wide) {
+        const uint32_t columns = (view->tile_columns + 1) / 2, rows = (view->tile_rows + 1) / 2;
+        virga_dispatch_2d(context, cmd, lens->coarse_gather[form], (columns + TILES - 1) / TILES, rows);
+        virga_compute_barrier(context, cmd);
+    }
+    virga_dispatch_2d(context, cmd, wide ? lens->finer[form] : lens->narrow[form],
+                      (view->tile_columns + TILES - 1) / TILES, view->tile_rows);
     virga_indirect_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -510,8 +528,13 @@ virga_result virga_lens_prepare_view(virga_lens *lens, VkCommandBuffer cmd, cons
 static const uint32_t tile_forms[] = {BLURRED_FORMS(0), TILE_FORMS(1), TILE_FORMS(VIRGA_LENS_LAYERS)};
 static const uint32_t sharp_forms[] = {FORM_OF(VIRGA_LENS_ALL_SHARP, 1),
                                        FORM_OF(VIRGA_LENS_ALL_SHARP, VIRGA_LENS_LAYERS)};
-static const uint32_t soft_forms[] = {FORM_OF(VIRGA_LENS_TILES_SOFT, 0), FORM_OF(VIRGA_LENS_TILES_SOFT, 1),
-                                      FORM_OF(VIRGA_LENS_TILES_SOFT, VIRGA_LENS_LAYERS)};
+#define KIND_FORMS(kind)                                                     \
+    {                                                                        \
+        FORM_OF(kind, 0), FORM_OF(kind, 1), FORM_OF(kind, VIRGA_LENS_LAYERS) \
+    }
+static const uint32_t both_forms[] = KIND_FORMS(VIRGA_LENS_TILES_BOTH);
+static const uint32_t wide_forms[] = KIND_FORMS(VIRGA_LENS_TILES_WIDE);
+static const uint32_t soft_forms[] = KIND_FORMS(VIRGA_LENS_TILES_SOFT);
 
 const virga_effect_draw lens_draws[LENS_DRAWS] = {
     [LENS_DRAW_PICTURE] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true,
@@ -522,6 +545,10 @@ const virga_effect_draw lens_draws[LENS_DRAWS] = {
                          VIRGA_ROWS(tile_forms), .no_depth = true},
     [LENS_DRAW_SOFT] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), soft_forms,
                         VIRGA_ROWS(soft_forms), .no_depth = true, .replace = true},
+    [LENS_DRAW_BOTH] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), both_forms,
+                        VIRGA_ROWS(both_forms), .no_depth = true},
+    [LENS_DRAW_WIDE] = {"lens.draw", VIRGA_VERTEX_FORM(lens_overlay_vert), VIRGA_FORM(lens_overlay_frag), wide_forms,
+                        VIRGA_ROWS(wide_forms), .no_depth = true, .replace = true},
     [LENS_DRAW_LAYERS] = {"lens.draw", VIRGA_VERTEX_FORM(lens_show_vert), VIRGA_FORM(lens_overlay_frag), sharp_forms,
                           VIRGA_ROWS(sharp_forms), .no_depth = true},
 };
@@ -624,15 +651,22 @@ static const virga_pipeline *const *of_layers(const draw_call *to, uint32_t row,
  * those in focus, which have layers only, then those that overwrite the target. */
 static virga_result draw_all_tiles(virga_lens *lens, const draw_call *to, uint32_t many)
 {
+    const bool has_wide = lens->prepared[lens->base.slot].wide;
     const virga_pipeline *const *blended = of_layers(to, LENS_DRAW_TILES, many);
     const virga_pipeline *const *soft = of_layers(to, LENS_DRAW_SOFT, many);
+    const virga_pipeline *const *both = of_layers(to, LENS_DRAW_BOTH, many);
+    const virga_pipeline *const *wide = of_layers(to, LENS_DRAW_WIDE, many);
     virga_result result = virga_pipelines_ready(blended, many ? VIRGA_LENS_TILE_KINDS : 1);
     if (!result)
         result = virga_pipelines_ready(soft, 1);
+    for (int i = 0; i < 2 && has_wide && !result; i++)
+        result = virga_pipelines_ready(i ? wide : both, 1);
     if (result)
         return result;
     const virga_pass_scope scope = begin_draw(lens, to, lens_draws[LENS_DRAW_TILES].name);
-    draw_of_all(lens, to, blended[VIRGA_LENS_TILES_BLURRED], VIRGA_LENS_TILES_BLURRED);
+    draw_of_all(lens, to, has_wide ? *both : blended[VIRGA_LENS_TILES_BLURRED], VIRGA_LENS_TILES_BLURRED);
+    if (has_wide)
+        draw_of_all(lens, to, *wide, VIRGA_LENS_TILES_WIDE);
     if (many)
         draw_of_all(lens, to, blended[VIRGA_LENS_TILES_SHARP], VIRGA_LENS_TILES_SHARP);
     draw_of_all(lens, to, *soft, VIRGA_LENS_TILES_SOFT);

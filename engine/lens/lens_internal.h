@@ -29,6 +29,8 @@ enum {
     LENS_BIND_BLOCKS,
     LENS_BIND_BLOCKS_WRITTEN,
     LENS_BIND_FAR,
+    LENS_BIND_COARSE_WRITTEN,
+    LENS_BIND_COARSE,
     LENS_BINDINGS,
 };
 
@@ -46,7 +48,8 @@ typedef struct lens_prepared {
     bool has_time;
     uint32_t width, height, layers;
     bool all_sharp; /* nothing is out of focus, as far as is known without the pictures */
-    uint32_t tiles; /* with an entry for each in place of lists; 0: there are lists, see shaders/lens/narrow.comp */
+    uint32_t tiles; /* with an entry for each in place of lists; 0: there are lists, see shaders/lens/narrow.glsl */
+    bool wide;      /* there are coarse fields */
 } lens_prepared;
 
 struct virga_lens {
@@ -60,15 +63,17 @@ struct virga_lens {
     VIRGA_PER_VIEW(virga_buffer, lists);     /* tiles to draw, if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, picture); /* NULL if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, fields);
+    VIRGA_PER_VIEW(virga_image_2d, coarse);  /* likewise at half of that resolution; NULL unless def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
     virga_image_2d *aperture, *samples, *spreads, *blocks, *blank_depth, *blank_color;
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[LENS_SAMPLES], *tile[VIRGA_LENS_LAYERS + 1], *reach,
-        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *layer_sample[VIRGA_LENS_LAYERS],
-        *layer[LENS_LAYER_FORMS], *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)],
-        *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
+        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *coarse_gather[LENS_NARROWS],
+        *finer[LENS_NARROWS], *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
+        *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)], *paper[2 * (VIRGA_LENS_LAYERS + 1)],
+        *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
 };
 
@@ -83,11 +88,27 @@ void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, flo
  * the last one, see FOR_LAYERS in shaders/lens/layers.glsl. */
 uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
 
-/* Whether all discs are so narrow that one pass gathers them, see shaders/lens/narrow.comp. */
-bool lens_is_narrow(const virga_lens *lens, const virga_lens_settings *settings);
+/* By which passes discs are gathered at half resolution, see shaders/lens/narrow.glsl. */
+typedef enum lens_way {
+    LENS_WAY_ANY,    /* of any width, from blocks of texels */
+    LENS_WAY_NARROW, /* in one pass */
+    LENS_WAY_WIDE,   /* (in place) the same for wider ones, in two of them */
+} lens_way;
+
+/* The one place that chooses, by the kind of device, its memory and the settings. */
+lens_way lens_way_of(const virga_lens *lens, const virga_lens_settings *settings);
 
 /* ---- lens_draw.c */
-enum { LENS_DRAW_PICTURE, LENS_DRAW_PART, LENS_DRAW_TILES, LENS_DRAW_LAYERS, LENS_DRAW_SOFT, LENS_DRAWS };
+enum {
+    LENS_DRAW_PICTURE,
+    LENS_DRAW_PART,
+    LENS_DRAW_TILES,
+    LENS_DRAW_LAYERS,
+    LENS_DRAW_SOFT,
+    LENS_DRAW_BOTH,
+    LENS_DRAW_WIDE,
+    LENS_DRAWS,
+};
 extern const virga_effect_draw lens_draws[LENS_DRAWS];
 virga_result lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target, virga_prepared prepared,
                        const char *call);

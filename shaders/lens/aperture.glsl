@@ -36,7 +36,7 @@ float lens_area(float apart)
 // The shift of the second aperture, in radii, for the light that comes to a texel of the work image.
 vec2 cats_eye_shift(vec2 texel)
 {
-    const vec2 half_size = 0.5 * vec2(view.columns, view.rows);
+    const vec2 half_size = 0.5 * vec2(WORK_SIZE);
     return view.cats_eye * (half_size - texel - 0.5) / length(half_size);
 }
 

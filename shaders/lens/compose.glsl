@@ -19,7 +19,9 @@ vec2 sampled; // texture coordinates in the fields
 void look_at(uvec2 at)
 {
     pixel = ivec2(view.left + at.x, view.top + at.y);
-    sampled = (vec2(at) + 0.5) / float(STEP) / vec2(textureSize(fields, 0).xy);
+    // The image may be larger than what is used of it.
+    const vec2 texel = min((vec2(at) + 0.5) / float(STEP), vec2(view.columns, view.rows) - 0.5);
+    sampled = texel / vec2(textureSize(fields, 0).xy);
 }
 
 // At full resolution a texel is a pixel, and fetching it is cheaper.

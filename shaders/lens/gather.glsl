@@ -26,6 +26,10 @@ float nearness(vec2 apart, float radius)
     return 1.0 / max(share * share * share, 1.0);
 }
 
+// Up to this radius (texels) a texel has no far field of its own to show. Of the coarse fields a pixel shows nothing
+// where its disc is not wide (VIRGA_LENS_COARSE_FROM), so such a texel gets the far field of the wide ones beside it.
+#define BESIDE BY_SCALE(2.0, POINT)
+
 // Whether light of this radius is gathered from single texels, up to radii of `most`.
 #ifdef NARROW
 #define is_fine(radius, most) true
@@ -52,7 +56,11 @@ struct gatherer {
 
 // Whether gather_far was done before.
 #ifdef NARROW
+#ifdef COARSE_PASS
+bool is_known(gatherer to) { return !SHAPED && !to.behind && !to.beside; }
+#else
 bool is_known(gatherer to) { return !SHAPED && !to.behind; }
+#endif
 #else
 bool is_known(gatherer to) { return false; }
 #endif
@@ -132,8 +140,8 @@ field_sum gather_far(gatherer to)
     const float reach = far_reach(to);
     // What is in blocks is not looked for here, but a texel that is nearly in focus cuts all to its own small circle.
     const bool small = !to.behind && !to.beside && level_of(to.own) == 0u;
-    const float most = small ? view.max_radius : level_radius(0u), least = to.beside ? POINT : -POINT;
-    const float cut_to = to.beside ? view.max_radius : max(to.own, POINT);
+    const float most = small ? MAX_RADIUS : level_radius(0u), least = to.beside ? BESIDE : -POINT;
+    const float cut_to = to.beside ? MAX_RADIUS : max(to.own, POINT);
     const int rows = reach < 0.0 ? -1 : disc_rows(reach);
     for (int y = -rows; y <= rows; y++) {
         const int columns = row_reach(reach, y), row = row_of(to.texel + ivec2(0, y));
@@ -211,7 +219,7 @@ field_sum scene_behind(gatherer to, vec3 own_color, field_sum fine)
     if (!to.beside)
         return sum;
     // From half a pixel on, its pixels are mixed with its own field, see compose.glsl.
-    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * POINT, POINT, abs(to.own)) : 1.0;
+    const float share = sum.scene.a > 0.0 ? smoothstep(0.5 * BESIDE, BESIDE, abs(to.own)) : 1.0;
     const float per_weight = sum.scene.a > 0.0 ? 1.0 / sum.scene.a : 0.0;
     sum.scene = mix(sum.scene * per_weight, vec4(own_color, 1.0), share);
     if (ON_SCENE)
@@ -258,7 +266,7 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
         return;
     }
     const gatherer to = gatherer(texel, own.a, reach, levels, top_level(levels | levels >> 4), barrel_at(texel),
-                                 own.a < -POINT, HALVED && abs(own.a) <= POINT);
+                                 own.a < -BESIDE, HALVED && abs(own.a) <= BESIDE);
     float near_circle = 0.0;
     field_sum near = field_sum(vec4(0.0), vec4(0.0));
     if (NEAR)
@@ -266,7 +274,10 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
     field_sum fine = field_sum(known, vec4(0.0));
     if (!is_known(to))
         fine = gather_far(to);
-    const field_sum far = scene_behind(to, own.rgb, fine);
+    field_sum far = scene_behind(to, own.rgb, fine);
+    // Of two fields, each has a part of what is near: nothing behind one of them does not make it all.
+    if ((COARSE || FINER) && far.scene.a == 0.0)
+        far.scene = near.scene.a > 0.0 ? near.scene : vec4(own.rgb, 1.0);
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
     if (near.scene.a > 1.0 || far.scene.a == 0.0) {
         near.on /= near.scene.a;

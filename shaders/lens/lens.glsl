@@ -17,19 +17,41 @@
 
 layout(constant_id = 0) const uint FORM = 0u;
 const uint OWN_FORM = FORM & 255u;
+// At a quarter of the resolution, and after a pass that is, see narrow.glsl.
+#ifdef COARSE_PASS
+#define COARSE          true
+#define BY_SCALE(a, b)  a
+#else
+#define COARSE          false
+#define BY_SCALE(a, b)  b
+#endif
+#ifdef FINER_PASS
+#define FINER true
+#else
+#define FINER false
+#endif
 #ifdef NOT_SPECIALISED // a fragment shader
 #define STEP   view.step
 #define HALVED (STEP == 2u)
 #else
 const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
 const bool IN_PLACE = (FORM & VIRGA_LENS_IN_PLACE) != 0u;
-const uint STEP = HALVED ? 2u : 1u; // as view.step
+const uint STEP = BY_SCALE(4u, HALVED ? 2u : 1u); // as view.step, but for the coarse pass
 #endif
+// Texels per pixel, along a side.
+#define TEXELS BY_SCALE(0.25, (HALVED ? 0.5 : 1.0))
 
 layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
 #ifndef STATE_WRITTEN
 layout(scalar, set = 0, binding = 29) uniform State { virga_lens_state_gpu state; };
 #endif
+
+// The largest radius of a circle of confusion, in texels.
+#define MAX_RADIUS BY_SCALE((0.5 * view.max_radius), view.max_radius)
+
+// The work image: texels and tiles that are used.
+#define WORK_SIZE    BY_SCALE((ivec2(view.columns + 1u, view.rows + 1u) >> 1), ivec2(view.columns, view.rows))
+#define TILE_COLUMNS BY_SCALE(((view.tile_columns + 1u) >> 1), view.tile_columns)
 
 // 1 / view depth (1/m) of a value of the depth buffer. 0 at infinity.
 float inverse_depth(float stored) { return max((view.depth_a + stored) / view.depth_b, 0.0); }
@@ -41,8 +63,8 @@ float focus_inv_m() { return view.follow != 0u ? state.focus_inv_m : view.focus_
 // The signed radius of the circle of confusion, in texels of the work image.
 float circle(float inv_m)
 {
-    const float r = view.circle_px_m * (focus_inv_m() - inv_m) * (HALVED ? 0.5 : 1.0);
-    return clamp(r, -view.max_radius, view.max_radius);
+    const float r = view.circle_px_m * (focus_inv_m() - inv_m) * TEXELS;
+    return clamp(r, -MAX_RADIUS, MAX_RADIUS);
 }
 #endif
 
@@ -55,15 +77,14 @@ struct depth_line {
 
 depth_line line_of_depths()
 {
-    const float texels = HALVED ? 0.5 : 1.0;
-    const float at_infinity = view.depth_given != 0u ? view.circle_px_m * focus_inv_m() * texels : 0.0;
-    return depth_line(-view.circle_per_depth * texels, at_infinity, min(at_infinity, view.max_radius));
+    const float at_infinity = view.depth_given != 0u ? view.circle_px_m * focus_inv_m() * TEXELS : 0.0;
+    return depth_line(-view.circle_per_depth * TEXELS, at_infinity, min(at_infinity, MAX_RADIUS));
 }
 
 vec4 depth_circles(depth_line line, vec4 stored)
 {
     const vec4 r = fma(stored + view.depth_a, vec4(line.slope), vec4(line.at_infinity));
-    return clamp(r, vec4(-view.max_radius), vec4(line.most));
+    return clamp(r, vec4(-MAX_RADIUS), vec4(line.most));
 }
 #endif
 
@@ -71,6 +92,9 @@ vec4 depth_circles(depth_line line, vec4 stored)
 float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius)) : 1.0; }
 
 #define POINT 0.5 // texels: a smaller circle of confusion is sharp
+
+// How much of what has this circle of confusion comes from the coarse fields. `radius` in px.
+float coarseness(float radius) { return smoothstep(VIRGA_LENS_COARSE_FROM, VIRGA_LENS_COARSE_TO, abs(radius)); }
 
 // What a picture may not hold: NaN becomes 0, infinity and huge numbers the largest half float.
 vec4 finite(vec4 color)

@@ -18,26 +18,54 @@ const uint KIND = OWN_FORM / (VIRGA_LENS_LAYERS + 1u);
 const bool ALL_SHARP = KIND == VIRGA_LENS_ALL_SHARP;
 const bool NO_FAR = KIND == VIRGA_LENS_TILES_SHARP;
 const bool NO_NEAR = KIND == VIRGA_LENS_TILES_FAR || NO_FAR;
-const bool SOFT = KIND == VIRGA_LENS_TILES_SOFT;
+const bool WIDE = KIND == VIRGA_LENS_TILES_WIDE, BOTH = KIND == VIRGA_LENS_TILES_BOTH; // with coarse fields
+const bool SOFT = KIND == VIRGA_LENS_TILES_SOFT || WIDE;
 
 #define BENEATH
 #include "compose.glsl"
 #include "stack.glsl"
 
-layout(location = 0) flat in uint has_near; // of the tile
+layout(location = 0) flat in uint beside; // the kind of the tile: bits, VIRGA_LENS_HAS_...
 layout(set = 0, binding = 32) uniform sampler2D far_field; // the first image of fields
+layout(set = 0, binding = 34) uniform sampler2DArray coarse_fields;
 layout(location = 0) out vec4 color;
+
+bool has(uint bit) { return (beside & bit) != 0u; }
+
+// Both fields of the tile, coarse where discs are wide. What is near in one of them and in the other adds up to what
+// is near here.
+void fields_of_both(uvec2 at, inout vec4 behind, inout vec4 before)
+{
+    const vec2 texel = min(0.25 * vec2(at) + 0.125, vec2((uvec2(view.columns, view.rows) + 1u) >> 1u) - 0.5);
+    const vec2 place = texel / vec2(textureSize(coarse_fields, 0).xy);
+    const vec4 coarse = textureLod(coarse_fields, vec3(place, VIRGA_LENS_FAR), 0.0);
+    if (has(VIRGA_LENS_HAS_COARSE_NEAR)) {
+        const vec4 coarse_before = textureLod(coarse_fields, vec3(place, VIRGA_LENS_NEAR), 0.0);
+        const float near = before.a + coarse_before.a;
+        const float sum = before.a * behind.a + coarse_before.a * 2.0 * coarse.a; // texels of the work image
+        behind.a = near > 0.0 ? sum / near : 0.0;
+        before = (before + coarse_before) / max(near, 1.0);
+    }
+    if (BOTH && has(VIRGA_LENS_HAS_FINE)) {
+        const float radius = circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP);
+        behind.rgb = mix(behind.rgb, coarse.rgb, coarseness(radius));
+    } else {
+        behind.rgb = coarse.rgb;
+    }
+}
 
 void main()
 {
     const uvec2 at = uvec2(gl_FragCoord.xy) - uvec2(view.left, view.top);
     vec4 behind = vec4(0.0), before = vec4(0.0);
     look_at(at);
-    if (!ALL_SHARP && !NO_FAR)
+    if (!ALL_SHARP && !NO_FAR && !WIDE && (!BOTH || has(VIRGA_LENS_HAS_FINE)))
         behind = textureLod(far_field, sampled, 0.0);
-    if (!ALL_SHARP && !NO_NEAR && (!FOR_GPU || has_near != 0u)) // software has a list of such tiles
+    if (!ALL_SHARP && !NO_NEAR && !WIDE && (!FOR_GPU || has(VIRGA_LENS_HAS_NEAR))) // software has a list of such tiles
         before = field(VIRGA_LENS_NEAR);
-    composed sum = begin_pixel(at, behind, before);
+    if (WIDE || (BOTH && has(VIRGA_LENS_HAS_COARSE)))
+        fields_of_both(at, behind, before);
+    composed sum = begin_seen(behind, before);
     if (LAYERS == 1u)
         put(0u, sum);
     if (LAYERS > 1u)

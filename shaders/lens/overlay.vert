@@ -9,7 +9,7 @@
 #include "gpu/own_view.glsl"
 
 layout(push_constant) uniform List { uint kind; }; // and perhaps VIRGA_LENS_EVERY
-layout(location = 0) flat out uint has_near;
+layout(location = 0) flat out uint beside;
 
 // With entries for every tile, one draw has all that are blended, whether they have a near field or not.
 bool is_drawn_as(uint found, uint drawn)
@@ -23,7 +23,7 @@ void main()
     const uint vertex = uint(gl_VertexIndex) % VIRGA_LENS_TILE_VERTICES;
     const uint corner = 0xDA4u >> 2u * vertex & 3u; // 0 1 2 and 2 1 3; bits say whether it is right and at the bottom
     uvec2 tile;
-    has_near = VIRGA_LENS_HAS_NEAR;
+    beside = VIRGA_LENS_HAS_NEAR;
     if ((kind & VIRGA_LENS_EVERY) == 0u) {
         tile = listed_tile(kind, entry);
     } else { // all tiles: those of another kind are drawn nowhere
@@ -33,7 +33,7 @@ void main()
             return;
         }
         tile = uvec2(entry % view.tile_columns, entry / view.tile_columns);
-        has_near = found & VIRGA_LENS_HAS_NEAR;
+        beside = found;
     }
     const uvec2 pixel = (tile + uvec2(corner & 1u, corner >> 1u)) * VIRGA_LENS_TILE * STEP;
     const uvec2 size = uvec2(view.width, view.height);

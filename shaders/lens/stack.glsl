@@ -23,10 +23,9 @@ void put(uint layer, inout composed sum)
     sum.color = over(layer_cut(layer, radius, cut, sum.near_px, sum.behind), sum.color);
 }
 
-// The scene at a pixel, from its fields there.
-composed begin_pixel(uvec2 at, vec4 behind, vec4 before)
+// The scene at the pixel that is looked at, or at another one, from its fields there.
+composed begin_seen(vec4 behind, vec4 before)
 {
-    look_at(min(at, uvec2(view.width, view.height) - 1u));
     composed sum;
     scene_of(behind, before, sum.near, sum.color, sum.near_px);
     // What lies on the scene also lies on its near field, so the layers behind that field come after it, cut by it.
@@ -35,6 +34,12 @@ composed begin_pixel(uvec2 at, vec4 behind, vec4 before)
     if (sum.near_done)
         sum.color = over(sum.near, sum.color);
     return sum;
+}
+
+composed begin_pixel(uvec2 at, vec4 behind, vec4 before)
+{
+    look_at(min(at, uvec2(view.width, view.height) - 1u));
+    return begin_seen(behind, before);
 }
 
 vec4 end_pixel(composed sum) { return sum.near_done ? sum.color : over(sum.near, sum.color); }

@@ -51,8 +51,8 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_DEPTHS        2   /* layer: it has a depth image */
 #define VIRGA_LENS_NO_NEAR       4   /* gather: nothing in front of the focus is out of focus */
 #define VIRGA_LENS_LINEAR        1   /* sample: the host's picture is linear light */
-#define VIRGA_LENS_NARROW_LINEAR 2   /* narrow: likewise */
-#define VIRGA_LENS_ALONE         4   /* narrow: no pass is before it, see shaders/lens/narrow.comp */
+#define VIRGA_LENS_NARROW_LINEAR 2   /* narrow, coarse, finer: likewise */
+#define VIRGA_LENS_ALONE         4   /* narrow, coarse, finer: no pass finds tiles, see shaders/lens/narrow.glsl */
 
 /* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
  * read. */
@@ -81,10 +81,26 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 /* (in place, narrow) Tiles of which every pixel comes from the fields: they are drawn without what is beneath. */
 #define VIRGA_LENS_TILES_SOFT 4
 
+/* (narrow) Discs of some radii come from a quarter of the resolution, wider ones than VIRGA_LENS_COARSE_FROM px, and
+ * from VIRGA_LENS_COARSE_TO px on nothing else does: see shaders/lens/narrow.glsl. */
+#define VIRGA_LENS_COARSE_FROM (1.5 * VIRGA_LENS_FINE)
+#define VIRGA_LENS_COARSE_TO   (2.0 * VIRGA_LENS_FINE)
+#define VIRGA_LENS_COARSE_MOST (4.0 * VIRGA_LENS_FINE) /* px, the largest radius */
+#define VIRGA_LENS_TILES_WIDE  5 /* every pixel comes from the coarse fields: drawn without what is beneath */
+#define VIRGA_LENS_TILES_BOTH  6 /* (draw) blended, from both fields */
+
 /* (narrow) An entry for every tile in place of lists: its kind, and bits beside it. */
-#define VIRGA_LENS_KIND_MASK 255u
-#define VIRGA_LENS_HAS_NEAR  256u /* circles of confusion from in front of the focus reach it */
-#define VIRGA_LENS_EVERY     256u /* in what a draw has pushed, beside the kind: there are such entries, and no lists */
+#define VIRGA_LENS_KIND_MASK       255u
+#define VIRGA_LENS_HAS_NEAR        256u  /* circles of confusion from in front of the focus reach it */
+#define VIRGA_LENS_HAS_FINE        512u  /* it has fields of the work image */
+#define VIRGA_LENS_HAS_COARSE      1024u /* it has coarse fields */
+#define VIRGA_LENS_HAS_COARSE_NEAR 2048u /* and wide circles from in front of the focus reach it */
+/* What the coarse pass leaves for the finer one in the place of another entry: the last two, and */
+#define VIRGA_LENS_NEEDS_FINE 1u /* something is out of focus around it whose disc is not wide */
+#define VIRGA_LENS_HAS_OTHERS 2u /* not every pixel comes from the coarse fields */
+
+/* In what a draw has pushed, beside the kind: there are such entries, and no lists. */
+#define VIRGA_LENS_EVERY 256u
 
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0

@@ -153,21 +153,22 @@ static virga_scene *open_scene(virga_context *context)
     return scene;
 }
 
-static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, uint32_t circles, uint32_t in_place)
+/* `in_place_px`: the largest radius in place; 0: not in place. */
+static virga_lens *open_lens(virga_context *context, uint32_t half_resolution, uint32_t circles, float in_place_px)
 {
     virga_lens_def def = virga_default_lens_def();
     virga_lens *lens;
     def.half_resolution = half_resolution;
     def.circles = circles;
-    def.in_place = in_place;
+    def.in_place = in_place_px > 0;
     assert_int_equal(virga_lens_create(context, &def, &lens), VIRGA_OK);
     virga_lens_settings settings = virga_default_lens_settings();
     settings.style = VIRGA_LENS_STYLE_PAPER; /* the filters are the same for all */
-    if (in_place) {
+    if (in_place_px > 0) {
         settings = virga_default_lens_settings();
-        settings.max_radius_px = 16; /* discs so narrow have passes of their own */
+        settings.max_radius_px = in_place_px; /* discs up to 16 px have passes of their own, and up to 32 px others */
     }
-    if (!half_resolution || in_place)
+    if (!half_resolution || in_place_px > 0)
         assert_int_equal(virga_lens_set(lens, &settings), VIRGA_OK);
     return lens;
 }
@@ -201,13 +202,14 @@ static virga_rain *open_plain_rain(virga_context *context)
     return rain;
 }
 
-#define LENSES 3 /* that draw */
+#define LENSES 4 /* that draw */
 
 static void compile_all(void)
 {
     virga_context *context = open_context();
     virga_scene *scene = open_scene(context);
-    virga_lens *lens[LENSES] = {open_lens(context, 0, 0, 0), open_lens(context, 1, 0, 0), open_lens(context, 1, 0, 1)};
+    virga_lens *lens[LENSES] = {open_lens(context, 0, 0, 0), open_lens(context, 1, 0, 0), open_lens(context, 1, 0, 16),
+                                open_lens(context, 1, 0, 32)};
     virga_lens *circles = open_lens(context, 0, 1, 0);
     virga_fluid *fluid = open_fluid(context);
     virga_environment *environment = open_environment(context);

@@ -82,6 +82,8 @@ static void print(const scene_file *scene)
 #define DROPS    1000 /* on the layer, as in the paper's picture */
 #define RUNS     41   /* of a case: a small picture takes as long as a wake of a thread may */
 #define ENOUGH_S 6.0  /* fewer runs are enough after it */
+#define GAME_PX  7.2  /* radius of discs of the rows in place: 1 % of 720 rows */
+#define WIDE_PX  21.6 /* and of 2160 rows: the same lens */
 
 typedef struct lens_case {
     const char *what;
@@ -90,6 +92,7 @@ typedef struct lens_case {
     double radius_share; /* largest circle of confusion, as a share of the picture's height; 0: everything is sharp */
     uint32_t blurred;    /* index into `shares` */
     bool in_place;       /* without the layer, and drawn */
+    double disc_px;      /* (in place) radius of the largest circle of confusion in place of the share */
 } lens_case;
 
 /* How much of the picture is out of focus, from above. The rest is as far away as the focus. */
@@ -97,18 +100,22 @@ static const double shares[] = {1, 1.0 / 3, 0.1, 0};
 #define SHARES (sizeof shares / sizeof *shares)
 
 static const lens_case cases[] = {
-    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0, false},
-    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0, false},
-    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, false},
-    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, false},
-    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, false},
-    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0, false},
-    {"in place, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true},
-    {"in place, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true},
-    {"in place, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true},
-    {"in place, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true},
-    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0, false},
-    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0, false},
+    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0, false, 0},
+    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0, false, 0},
+    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, false, 0},
+    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, false, 0},
+    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, false, 0},
+    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0, false, 0},
+    {"in place, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, GAME_PX},
+    {"in place, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, GAME_PX},
+    {"in place, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, GAME_PX},
+    {"in place, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, GAME_PX},
+    {"wide, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, WIDE_PX},
+    {"wide, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, WIDE_PX},
+    {"wide, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, WIDE_PX},
+    {"wide, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, WIDE_PX},
+    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0, false, 0},
+    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0, false, 0},
 };
 
 static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
@@ -337,18 +344,16 @@ static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens
     return good;
 }
 
-#define GAME_PX 7.2 /* radius of discs of the rows in place: 1 % of 720 */
-
 /* The focus is on the pane, 0.3 m away, so that what is farthest is blurred by the case's share. */
 static virga_lens_settings settings_of(const lens_case *row, const pictures *p)
 {
     virga_lens_settings settings = virga_default_lens_settings();
-    const double pixels = p->height, radius_px = row->in_place ? GAME_PX : row->radius_share * p->height;
+    const double pixels = p->height, radius_px = row->in_place ? row->disc_px : row->radius_share * p->height;
     settings.style = row->style;
     settings.focus_m = FOCUS_M;
     settings.max_radius_px = row->half_resolution ? 126 : 63;
-    if (row->in_place) /* a game knows how large its discs get */
-        settings.max_radius_px = 2 * (float)GAME_PX;
+    if (row->in_place) /* a game knows how large its discs get; at least that they are not wider than by default */
+        settings.max_radius_px = fminf(2 * (float)row->disc_px, virga_default_lens_settings().max_radius_px);
     /* r = A p / 2 (1 / s), A = focal / f-number, p = half the height times the cotangent, 2 */
     settings.aperture_f =
         radius_px > 0 ? (float)((double)settings.focal_m * pixels / (2 * radius_px * (double)settings.focus_m)) : 0;

@@ -62,7 +62,7 @@ typedef struct virga_lens_def {
     /* 0 or 1; needs half_resolution, and no circles. 1: for a host whose target already holds the scene. Draws blend
      * over it what is out of focus, and layers, see virga_lens_draw, in place of writing all of a picture. So the cost
      * follows what is out of focus. There is no picture (virga_lens_picture), no part (virga_lens_draw_part) and no
-     * style of the paper. Memory: 8 bytes per pixel and view less. Default 0. */
+     * style of the paper. Memory: 7 bytes per pixel and view less. Default 0. */
     uint32_t in_place;
 } virga_lens_def;
 
@@ -118,7 +118,9 @@ typedef struct virga_lens_settings {
 
     /* [1; 126] largest radius of a circle of confusion (px); larger ones are cut to it. At full resolution at most 63.
      * The cost grows as the square of a circle up to 8 texels of the work image (px, or 2 px at half resolution); wider
-     * ones come from blocks of texels and cost about the same at any size. Default 32. */
+     * ones come from blocks of texels and cost about the same at any size. In place on GPUs, up to 16 px one pass does
+     * it all, and up to 32 px two, which take a fifth of the time of wider ones, or less, unless a layer is out of
+     * focus. So say no more than is seen. Default 32. */
     float max_radius_px;
 
     /* (paper) [0; 1e6] difference to the depth at focus (m) from which on the weaker filter is used, and the stronger

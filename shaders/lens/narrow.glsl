@@ -1,0 +1,614 @@
+// narrow.glsl - (half resolution, on GPUs) what reach.comp, sample.comp and gather.comp do, in one pass, if no disc is
+// wider than VIRGA_LENS_FINE texels and no layer lies on the scene. In a small picture each wait for the pass before
+// costs as much as the pass does. And samples that are read 50 times are read from shared memory.
+//
+// ALONE (in place, and no layer has depths) it does what tile.comp does as well: a workgroup looks itself at all depths
+// from which a disc may reach its tiles. Then it is the only pass before the draw. It gives each tile its kind, in an
+// entry of its own in place of lists, which somebody would have to empty first.
+//
+// Wider discs (in place, no layer out of focus) come from the same pass at a quarter of the resolution: COARSE, whose
+// texels have 4 x 4 pixels. A disc of 22 px is 5.5 texels there, as smooth as one of 11 px at half resolution. Where
+// discs are narrower than VIRGA_LENS_COARSE_FROM px all comes from half resolution (FINER), and from
+// VIRGA_LENS_COARSE_TO px on all from a quarter, so that nothing pops as a disc grows. A texel in front of the focus
+// spreads its light in shares in both, and a pixel behind the focus or in it mixes both far fields by its own circle.
+// The coarse pass comes first, and tells for each tile of the finer one whether that has anything to do.
+//
+// Bytes that have to move, for each pixel of 8 bytes that is out of focus: depth 4, color 8, the far field written and
+// read 2 x 8 / 4 (half resolution) or 2 x 8 / 16 (a quarter), the picture 8. These are 24 bytes or 21, so 3 fills of
+// half floats where all is out of focus, 2.63 with wide discs, and half a fill where nothing is.
+//
+// A workgroup has two tiles beside each other, and keeps the samples of those that something reaches, and of so much
+// around them as reaches them. Tiles that nothing reaches have an empty rim, which is read with the fields of the tiles
+// beside them; nothing is mixed there.
+// One workgroup per two tiles. Reads: tiles, color, depth, state, aperture. Writes: fields, reaches, lists, and what
+// tiles were told, for the next view; ALONE: fields, lists, state.
+// The includer says COARSE_PASS and FINER_PASS if they are so. In loops a specialisation constant would be a branch.
+#include "lens.glsl"
+#include "pixels.glsl"
+#define SCENE_LINEAR ((OWN_FORM & VIRGA_LENS_NARROW_LINEAR) != 0u)
+#include "scene_color.glsl"
+#define AREAS_OF_VIEW
+#include "spread.glsl"
+#include "texels.glsl"
+#include "sample.glsl"
+#define LISTS_ACCESS
+#include "lists.glsl"
+#include "levels.glsl"
+#include "reach.glsl"
+#include "aperture.glsl"
+
+// The largest radius that this pass gathers. FINER cuts samples to it, after it found out which pixels belong together.
+#ifdef FINER_PASS
+#define OWN_MOST min(view.max_radius, float(VIRGA_LENS_FINE))
+#else
+#define OWN_MOST MAX_RADIUS
+#endif
+
+const bool ALONE = (OWN_FORM & VIRGA_LENS_ALONE) != 0u;
+
+const int TILE = VIRGA_LENS_TILE, TILES = 2; // of a workgroup, beside each other
+const ivec2 REGION = ivec2(TILES * TILE, TILE);
+const int TILE_BITS = 4, REGION_BITS = 5; // a product costs four times as much
+
+layout(local_size_x = 16, local_size_y = 8) in; // two pairs of texels each
+const int LANES = 128;
+layout(std430, set = 0, binding = 1) writeonly buffer Written { virga_lens_state_gpu written; };
+layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[]; };
+#ifndef FIELDS_BINDING
+#define FIELDS_BINDING 11
+#endif
+layout(set = 0, binding = FIELDS_BINDING, rgba16f) uniform writeonly image2DArray fields;
+
+const int MOST = (TILES * TILE + 2 * VIRGA_LENS_FINE) * (TILE + 2 * VIRGA_LENS_FINE); // texels
+// Of a sample: its color, half of it as half floats; its radius, where they would move the edge of a lamp's disc; and a
+// spread. That
+// is 1 / area on the grid in front of the focus, whose sum is a coverage: half floats would let a thousandth of a lamp
+// through what hides it. Else it is 1 / disc_area, and 0 for what is in focus. One load has all of it.
+shared uvec4 kept[MOST];
+// Of each tile. Words of floats that are not negative are in the same order as the floats.
+shared uint found_near[TILES], found_far[TILES];
+shared bool needs_rim[TILES], has_hard[TILES]; // it is read; a pixel of it is not from the fields alone
+// Of the tiles of the finer pass, in rows: COARSE, what this pass finds, as bits; FINER, what it was told.
+const int FINE_COLUMNS = 2 * TILES, FINE_TILES = 2 * FINE_COLUMNS;
+shared uint needs_fine, has_wide, has_others;
+shared uint told_fine[TILES];
+shared bool is_beside_fine; // something is out of focus in the tiles around, whose disc is not wide
+
+ivec2 first_texel; // of the tiles, in the work image
+ivec2 kept_first;
+ivec2 kept_size;
+
+// Where a texel of this row would be if it were in the work image's first column. Each lane would multiply for a texel.
+int row_of(ivec2 texel) { return (texel.y - kept_first.y) * kept_size.x - kept_first.x; }
+
+vec3 color_of(uvec4 words) { return vec3(unpackHalf2x16(words.x), uintBitsToFloat(words.y)); }
+float radius_at(int at) { return uintBitsToFloat(kept[at].z); }
+
+vec4 sample_in(int row, ivec2 texel)
+{
+    const uvec4 words = kept[row + texel.x];
+    return vec4(color_of(words), uintBitsToFloat(words.z));
+}
+
+float spread_in(int row, ivec2 texel) { return uintBitsToFloat(kept[row + texel.x].w); }
+
+bool has_near; // circles of confusion from in front of the focus reach the tile
+#define NEAR has_near
+#define ON_SCENE false
+#define NARROW
+
+vec4 on_scene_mean(ivec2 texel) { return vec4(0.0); }
+#include "gather.glsl"
+
+// ---- what reaches the tiles
+
+const float MARGIN = 2.5; // texels, as in tile.comp
+
+bool is_tile(int i) { return int(gl_WorkGroupID.x) * TILES + i < int(TILE_COLUMNS); }
+uint tile_at(int i) { return gl_WorkGroupID.y * TILE_COLUMNS + gl_WorkGroupID.x * uint(TILES) + uint(i); }
+
+void take_told(int i)
+{
+    const virga_lens_tile_gpu told = tiles[tile_at(i)];
+    tiles[tile_at(i)] = virga_lens_tile_gpu(told.levels, 0u, 0u, 0u, 0u);
+    reach_tile(tile_at(i), told);
+    found_near[i] = told.near;
+    found_far[i] = told.far;
+    needs_rim[i] = (told.told & VIRGA_LENS_SAMPLED) != 0u;
+}
+
+// How far (texels) a tile is from a place along an axis, which is relative to the tile's first texel.
+float gap_to(float at) { return max(max(-at, at - float(TILE - 1)), 0.0); }
+
+// What a square of 2 x 2 pixels tells the tiles: how far (texels) its discs reach in front of the focus and behind it.
+// `ends`: its nearest circle of confusion and its farthest one. Where they are on both sides of a limit, there may be
+// any in between.
+vec2 told_reach(vec2 ends, float farthest)
+{
+    const vec2 most = vec2(OWN_MOST, min(farthest, OWN_MOST));
+    const vec2 reach = clamp(vec2(-ends.x, ends.y), vec2(-farthest), most);
+    if (COARSE)
+        return mix(vec2(0.0), reach, greaterThan(reach, vec2(0.25 * VIRGA_LENS_COARSE_FROM)));
+    if (FINER && (ends.x >= OWN_MOST || ends.y <= -OWN_MOST))
+        return vec2(0.0); // all of it comes from the coarse fields
+    return reach;
+}
+
+// COARSE: the tiles of the finer pass that pixels reach whose discs are not all wide, as bits. `from_first`: texels
+// from the first one of the tiles to the middle of the square.
+uint finer_tiles(vec2 from_first, vec2 ends)
+{
+    const float wide = 0.25 * VIRGA_LENS_COARSE_TO;
+    if (ends.x >= wide || ends.y <= -wide)
+        return 0u;
+    const float far = min(max(-ends.x, ends.y), wide) + 0.5 * MARGIN + 0.5; // MARGIN is in texels of that pass
+    const ivec2 low = max(ivec2(floor((from_first - far) * (2.0 / float(TILE)))), ivec2(0));
+    const ivec2 high = min(ivec2(floor((from_first + far) * (2.0 / float(TILE)))), ivec2(FINE_COLUMNS, 2) - 1);
+    if (any(greaterThan(low, high)))
+        return 0u;
+    const uint columns = (2u << high.x) - (1u << low.x);
+    return (low.y == 0 ? columns : 0u) | (high.y == 1 ? columns << FINE_COLUMNS : 0u);
+}
+
+// COARSE: the tile of the finer pass that a texel is in, as a bit.
+uint own_tile(ivec2 from_first)
+{
+    const ivec2 tile = from_first >> (TILE_BITS - 1);
+    return tile == clamp(tile, ivec2(0), ivec2(FINE_COLUMNS, 2) - 1) ? 1u << (tile.y * FINE_COLUMNS + tile.x) : 0u;
+}
+
+// The nearest and the farthest circle of confusion of four pixels.
+vec2 ends_of(vec4 stored, depth_line line)
+{
+    const vec2 less = min(stored.xy, stored.zw), more = max(stored.xy, stored.zw);
+    const vec2 depths = vec2(min(less.x, less.y), max(more.x, more.y));
+    const vec2 ends = (depths + view.depth_a) * line.slope + line.at_infinity;
+    return vec2(min(ends.x, ends.y), max(ends.x, ends.y));
+}
+
+vec2 both_ends(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }
+
+// How depths around the tiles are read: in texture coordinates, the corner between four pixels.
+struct depth_places {
+    vec2 start, step_of, low, high;
+};
+
+depth_places places_around(int around)
+{
+    const vec2 per_pixel = 1.0 / vec2(textureSize(scene_depth, 0)), origin = vec2(view.left, view.top);
+    const int pixels = BY_SCALE(4, 2);
+    return depth_places((origin + vec2(pixels * (first_texel - around) + 1)) * per_pixel, float(pixels) * per_pixel,
+                        (origin + 1.0) * per_pixel,
+                        (origin + max(vec2(view.width, view.height) - 1.0, 1.0)) * per_pixel);
+}
+
+vec2 ends_at(vec2 place, depth_places from, depth_line line)
+{
+    return ends_of(textureGather(scene_depth, clamp(place, from.low, from.high)), line);
+}
+
+// What all looked-at texels tell.
+struct told_around {
+    vec2 near, far; // by tile
+    uint finer, wide;
+};
+
+void look_at_ends(vec2 from_first, vec2 ends, float farthest, inout told_around told)
+{
+    const vec2 reach = told_reach(ends, farthest);
+    if (COARSE && max(reach.x, reach.y) > 0.0)
+        told.wide |= own_tile(ivec2(from_first));
+    const vec2 along = vec2(gap_to(from_first.x), gap_to(from_first.x - float(TILE)));
+    const vec2 gaps = max(along, vec2(gap_to(from_first.y))) - MARGIN;
+    told.near = max(told.near, mix(vec2(0.0), vec2(reach.x), lessThanEqual(gaps, vec2(reach.x))));
+    told.far = max(told.far, mix(vec2(0.0), vec2(reach.y), lessThanEqual(gaps, vec2(BY_SCALE(0.0, reach.y)))));
+}
+
+// COARSE: all four at once, so that they are waited for once.
+void look_at_16(vec2 place, vec2 from_first, depth_places from, depth_line line, inout told_around told)
+{
+    const vec2 half_step = 0.5 * from.step_of;
+    const vec2 a = ends_at(place, from, line), b = ends_at(place + vec2(half_step.x, 0.0), from, line);
+    const vec2 c = ends_at(place + vec2(0.0, half_step.y), from, line), d = ends_at(place + half_step, from, line);
+    const vec2 ends = both_ends(both_ends(a, b), both_ends(c, d));
+    const float wide = 0.25 * VIRGA_LENS_COARSE_TO;
+    if (max(-ends.x, ends.y) <= 0.5 * SHARP_REACH)
+        return;
+    look_at_ends(from_first, ends, line.most, told);
+    if (ends.x >= wide || ends.y <= -wide)
+        return;
+    told.finer |= finer_tiles(from_first + vec2(0.25), a) | finer_tiles(from_first + vec2(0.75, 0.25), b) |
+                  finer_tiles(from_first + vec2(0.25, 0.75), c) | finer_tiles(from_first + vec2(0.75), d);
+}
+
+// All texels whose discs may reach the tiles. A disc has the radius of its nearest pixel, or of its farthest one. Loops
+// over so many texels are most of what tiles in focus cost, so this one computes with floats, which fuse, and decides
+// by depths alone. The last pixels of an odd side are looked at with those before them, and towards a corner a disc is
+// taken for a square.
+//
+// COARSE: wide discs from behind the focus cover only what is as far out of focus itself, so that they are looked for
+// no farther than fields are read.
+void look_around()
+{
+    const int around = int(OWN_MOST + MARGIN) + 1;
+    const float columns = float(REGION.x + 2 * around), count = columns * float(REGION.y + 2 * around);
+    const float per_row = 1.0 / columns, half_row = 0.5 * per_row;
+    const depth_line line = line_of_depths();
+    const depth_places from = places_around(around);
+    told_around told = told_around(vec2(0.0), vec2(0.0), 0u, 0u);
+    for (float i = float(gl_LocalInvocationIndex); i < count; i += float(LANES)) {
+        vec2 at;
+        at.y = floor(i * per_row + half_row);
+        at.x = i - at.y * columns;
+        const vec2 place = at * from.step_of + from.start;
+        if (COARSE) {
+            look_at_16(place, at - float(around), from, line, told);
+            continue;
+        }
+        const vec2 ends = ends_at(place, from, line);
+        if (max(-ends.x, ends.y) > SHARP_REACH)
+            look_at_ends(at - float(around), ends, line.most, told);
+    }
+    for (int i = 0; i < TILES; i++) {
+        if (told.near[i] > SHARP_REACH)
+            atomicMax(found_near[i], floatBitsToUint(told.near[i]));
+        if (told.far[i] > SHARP_REACH)
+            atomicMax(found_far[i], floatBitsToUint(told.far[i]));
+    }
+    if (COARSE && (told.finer | told.wide) != 0u) {
+        atomicOr(needs_fine, told.finer);
+        atomicOr(has_wide, told.wide);
+    }
+}
+
+// ---- the samples
+
+// Of a tile: whether each pixel is from the fields alone, see `blurriness`.
+void look_at_own(ivec2 at, vec4 radii)
+{
+    if (any(lessThan(abs(radii), vec4(1.0))))
+        if (at == clamp(at, ivec2(0), REGION - 1))
+            has_hard[at.x / TILE] = true;
+}
+
+// COARSE: likewise, of a tile of the finer pass, and from the coarse fields alone.
+void look_at_wide(ivec2 at, float least)
+{
+    if (least < 0.25 * VIRGA_LENS_COARSE_TO)
+        if (at == clamp(at, ivec2(0), REGION - 1)) {
+            const ivec2 tile = at >> (TILE_BITS - 1);
+            atomicOr(has_others, 1u << (tile.y * FINE_COLUMNS + tile.x));
+        }
+}
+
+// How much of the light of a texel in front of the focus goes to this pass.
+float own_share(float radius)
+{
+    if (!COARSE && !FINER)
+        return 1.0;
+    const float wide = coarseness(radius * (1.0 / TEXELS));
+    return BY_SCALE(wide, 1.0 - wide);
+}
+
+// COARSE: the four pixels at a place.
+vec4 four_circles(depth_line line, ivec2 low, ivec2 more, vec2 per_pixel)
+{
+    return depth_circles(line, textureGather(scene_depth, (vec2(low) + 0.5 + 0.5 * vec2(more)) * per_pixel).wzxy);
+}
+
+float least_of(vec4 four) { return min(min(four.x, four.y), min(four.z, four.w)); }
+
+// COARSE: the nearest one that is wide.
+float nearest_wide(vec4 radii) { return least_of(mix(vec4(1e9), radii, greaterThanEqual(abs(radii), vec4(BESIDE)))); }
+
+// COARSE: how much of each of four pixels is in a texel: those that are about as near as the nearest one.
+vec4 weights_near(vec4 radii, float nearest, float per_radius)
+{
+    return max(1.0 - abs(radii - nearest) * per_radius, 0.0);
+}
+
+vec3 stored_color(ivec2 pixel) { return texelFetch(scene_picture, pixel, 0).rgb; }
+
+// COARSE: the weighted sum of four pixels, as they are stored, and as light.
+vec3 stored_sum(ivec2 low, ivec2 more, vec4 weights)
+{
+    const ivec2 high = low + more;
+    return weights.x * stored_color(low) + weights.y * stored_color(ivec2(high.x, low.y)) +
+           weights.z * stored_color(ivec2(low.x, high.y)) + weights.w * stored_color(high);
+}
+
+vec3 light_sum(ivec2 low, ivec2 more, vec4 weights)
+{
+    const ivec2 high = low + more;
+    return weights.x * scene_color(low) + weights.y * scene_color(ivec2(high.x, low.y)) +
+           weights.z * scene_color(ivec2(low.x, high.y)) + weights.w * scene_color(high);
+}
+
+float sum_of(vec4 four) { return dot(four, vec4(1.0)); }
+float before_of(vec4 radii) { return dot(vec4(lessThan(radii, vec4(-BESIDE))), vec4(1.0 / 16.0)); }
+
+// COARSE: a sample of the 4 x 4 pixels of a texel. As in sample.glsl, but of those that are about as near as the
+// nearest wide one: a pole in focus hides no lamp behind it, and what is not wide is seen in the other fields. `least`:
+// its smallest circle of confusion.
+texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float least)
+{
+    const ivec2 origin = ivec2(view.left, view.top), last = ivec2(view.width, view.height) - 1;
+    const ivec2 more = min(last, ivec2(1)), end = last - more;
+    const ivec2 low = origin + clamp(texel << 2, ivec2(0), end), high = origin + clamp((texel << 2) + 2, ivec2(0), end);
+    const ivec2 right = ivec2(high.x, low.y), below = ivec2(low.x, high.y);
+    const vec4 a = four_circles(line, low, more, per_pixel), b = four_circles(line, right, more, per_pixel);
+    const vec4 c = four_circles(line, below, more, per_pixel), d = four_circles(line, high, more, per_pixel);
+    least = least_of(min(min(abs(a), abs(b)), min(abs(c), abs(d))));
+    float nearest = least_of(min(min(a, b), min(c, d)));
+    if (least < BESIDE) {
+        const float of_wide = min(min(nearest_wide(a), nearest_wide(b)), min(nearest_wide(c), nearest_wide(d)));
+        nearest = of_wide < 1e8 ? of_wide : nearest;
+    }
+    const float per_radius = 1.0 / max(abs(nearest), 1.0);
+    const vec4 of_a = weights_near(a, nearest, per_radius), of_b = weights_near(b, nearest, per_radius);
+    const vec4 of_c = weights_near(c, nearest, per_radius), of_d = weights_near(d, nearest, per_radius);
+    const float per_weight = 1.0 / sum_of(of_a + of_b + of_c + of_d);
+    const float radius = dot(of_a, a) + dot(of_b, b) + dot(of_c, c) + dot(of_d, d);
+    float before = 0.0;
+    if (nearest < -BESIDE)
+        before = before_of(a) + before_of(b) + before_of(c) + before_of(d);
+    vec3 sum = vec3(0.0);
+    if (SCENE_LINEAR) // all sixteen at once, so that they are waited for once
+        sum = stored_sum(low, more, of_a) + stored_sum(right, more, of_b) + stored_sum(below, more, of_c) +
+              stored_sum(high, more, of_d);
+    if (!SCENE_LINEAR || !(max(max(abs(sum.r), abs(sum.g)), abs(sum.b)) <= 65504.0) || isnan(sum.r + sum.g + sum.b))
+        sum = light_sum(low, more, of_a) + light_sum(right, more, of_b) + light_sum(below, more, of_c) +
+              light_sum(high, more, of_d);
+    return texel_sample(sum * per_weight, radius * per_weight, before);
+}
+
+// From colors as they are stored. Where all of them are finite nothing has to be done about it, but one look.
+texel_sample stored_sample(vec3 a, vec3 b, vec3 c, vec3 d, texel_circles of)
+{
+    if (!SCENE_LINEAR)
+        return mean_sample(scene_light(a), scene_light(b), scene_light(c), scene_light(d), of);
+    texel_sample own = mean_sample(a, b, c, d, of);
+    const vec3 most = max(max(abs(a), abs(b)), max(abs(c), abs(d)));
+    if (!(max(max(most.x, most.y), most.z) <= 65504.0) || isnan(own.color.r + own.color.g + own.color.b))
+        own = mean_sample(finite(a), finite(b), finite(c), finite(d), of);
+    return own;
+}
+
+void keep_samples()
+{
+    const float columns = float(kept_size.x), per_row = 1.0 / columns, half_row = 0.5 * per_row;
+    const ivec2 offset = kept_first - first_texel;
+    // Whether every texel of the picture has four pixels.
+    const bool whole = ((view.width | view.height) & 1u) == 0u;
+    const ivec2 low_pixel = ivec2(view.left, view.top);
+    const ivec2 high_pixel = low_pixel + ivec2(view.width, view.height) - 2;
+    const ivec2 first_pixel = low_pixel + (kept_first << 1);
+    const vec2 per_pixel = 1.0 / vec2(textureSize(scene_depth, 0));
+    const depth_line line = line_of_depths();
+    for (int i = int(gl_LocalInvocationIndex); i < kept_size.x * kept_size.y; i += LANES) {
+        const float row = floor(float(i) * per_row + half_row);
+        const ivec2 at = ivec2(float(i) - row * columns, row);
+        texel_circles of;
+        texel_sample own;
+        if (COARSE) {
+            float least;
+            own = wide_sample(kept_first + at, line, per_pixel, least);
+            look_at_wide(at + offset, least);
+        } else if (whole) {
+            const ivec2 low = clamp(first_pixel + (at << 1), low_pixel, high_pixel);
+            of = circles_of(depth_circles(line, textureGather(scene_depth, vec2(low) * per_pixel + per_pixel).wzxy));
+            own = stored_sample(texelFetch(scene_picture, low, 0).rgb,
+                                texelFetchOffset(scene_picture, low, 0, ivec2(1, 0)).rgb,
+                                texelFetchOffset(scene_picture, low, 0, ivec2(0, 1)).rgb,
+                                texelFetchOffset(scene_picture, low, 0, ivec2(1, 1)).rgb, of);
+        } else {
+            const ivec2 texel = inside(kept_first + at);
+            of = circles_of(circles_at(texel));
+            own = sample_with(texel, of);
+        }
+        if (ALONE && !COARSE)
+            look_at_own(at + offset, of.of_pixels);
+        if (FINER)
+            own.radius = clamp(own.radius, -OWN_MOST, OWN_MOST);
+        float spread_of = 0.0;
+        if (own.radius < -POINT)
+            spread_of = own.share * spread(own.radius) * own_share(own.radius);
+        else if (own.radius > POINT)
+            spread_of = 1.0 / disc_area(own.radius);
+        kept[i] = uvec4(packHalf2x16(own.color.rg), floatBitsToUint(vec3(own.color.b, own.radius, spread_of)));
+    }
+}
+
+// ---- the fields
+
+// Texels of a tile: each invocation has two beside each other, and two below them.
+ivec2 first_of_pair(int pair)
+{
+    return first_texel + (ivec2(gl_LocalInvocationID.xy) << ivec2(1, 0)) + ivec2(0, pair << (TILE_BITS - 1));
+}
+
+// Adds a sample to two texels. `room`: half a texel less how far it is from each.
+void gather_one(uvec4 words, vec2 room, vec2 cut, vec2 areas, inout vec4 sums[2])
+{
+    const vec4 source = vec4(color_of(words), 1.0);
+    const vec2 covers = clamp(min(vec2(uintBitsToFloat(words.z)), cut) + room, 0.0, 1.0);
+    const vec2 weights = covers * max(vec2(uintBitsToFloat(words.w)), areas);
+    sums[0] += weights.x * source;
+    sums[1] += weights.y * source;
+}
+
+// What gather_far finds for two texels whose circles of confusion are `own`, where is_known says so. Both read the same
+// samples. A sample is cut to the circle of the texel, and min(radius, cut) has the larger of both weights.
+//
+// A sample in front of the focus covers nothing, as its radius is negative. One in focus covers no more than itself,
+// where it is not gathered if the texel looks for what is behind it: it has no spread, and such a texel no area.
+// A row has an even number of samples: two in each turn.
+void gather_two(ivec2 texel, vec2 own, float largest, out vec4 sums[2])
+{
+    const bvec2 beside = lessThanEqual(abs(own), vec2(BESIDE));
+    const vec2 circles = max(own, vec2(POINT)), reaches_far = mix(circles, vec2(largest), beside);
+    const vec2 cut = mix(circles, vec2(MAX_RADIUS), beside);
+    const vec2 areas = mix(vec2(1.0 / disc_area(cut.x), 1.0 / disc_area(cut.y)), vec2(0.0), beside);
+    const float least = BY_SCALE(BESIDE, -POINT); // see is_known
+    const float reach = max(own.x < least ? 0.0 : reaches_far.x, own.y < least ? 0.0 : reaches_far.y);
+    const int rows = max(own.x, own.y) < least ? -1 : disc_rows(reach);
+    const float edge = max(reach, 0.5) + 0.5;
+    int middle = row_of(texel - ivec2(0, rows)) + texel.x;
+    sums[0] = sums[1] = vec4(0.0);
+    for (float y = -float(rows); y <= float(rows); y += 1.0) {
+        const float down = y * y;
+        const int columns = int(sqrt(max(edge * edge - down, 0.0))); // as row_reach
+        const int end = middle + columns;
+        float x = -float(columns), before = 0.5 - sqrt((x - 1.0) * (x - 1.0) + down); // from the second texel
+        for (int at = middle - columns; at <= end; at += 2) {
+            const float one = 0.5 - sqrt(x * x + down), next = x + 1.0, two = 0.5 - sqrt(next * next + down);
+            gather_one(kept[at], vec2(one, before), cut, areas, sums);
+            gather_one(kept[at + 1], vec2(two, one), cut, areas, sums);
+            before = two;
+            x += 2.0;
+        }
+        middle += kept_size.x;
+    }
+}
+
+bool is_there(ivec2 texel) { return all(lessThan(texel, WORK_SIZE)); }
+
+void empty_rim(int pair)
+{
+    const ivec2 texel = first_of_pair(pair), in_tile = texel & (TILE - 1);
+    const bool row = in_tile.y == 0 || in_tile.y == TILE - 1;
+    if ((row || in_tile.x == 0) && is_there(texel))
+        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+    if ((row || in_tile.x == TILE - 2) && is_there(texel + ivec2(1, 0)))
+        imageStore(fields, ivec3(texel + ivec2(1, 0), VIRGA_LENS_NEAR), vec4(0.0));
+}
+
+void gather_both(int pair, vec2 reach)
+{
+    const ivec2 texel = first_of_pair(pair);
+    const int at = row_of(texel) + texel.x;
+    vec4 known[2] = vec4[2](vec4(0.0), vec4(0.0));
+    if (!SHAPED && max(reach.x, reach.y) > POINT)
+        gather_two(texel, vec2(radius_at(at), radius_at(at + 1)), reach.y, known);
+    for (int i = 0; i < 2; i++)
+        if (is_there(texel + ivec2(i, 0)))
+            gather_texel(texel + ivec2(i, 0), reach, level_bit(0u, 0u) | level_bit(1u, 0u), known[i]);
+}
+
+// FINER: the kind of a tile, with the coarse fields.
+uint kind_of_both(uint told, uint kind)
+{
+    const bool coarse = (told & VIRGA_LENS_HAS_COARSE) != 0u;
+    if (!coarse)
+        return kind;
+    if (kind == VIRGA_LENS_TILES_SHARP && (told & VIRGA_LENS_HAS_OTHERS) == 0u)
+        return VIRGA_LENS_TILES_WIDE;
+    return VIRGA_LENS_TILES_BLURRED;
+}
+
+// ALONE: the kind of a tile.
+void enter(int i, vec2 reach)
+{
+    uint kind = kind_of(reach), beside = reach.x > POINT ? VIRGA_LENS_HAS_NEAR : 0u;
+    if (kind != VIRGA_LENS_TILES_SHARP) {
+        beside |= VIRGA_LENS_HAS_FINE;
+        if (!has_hard[i])
+            kind = VIRGA_LENS_TILES_SOFT;
+    }
+    if (FINER) {
+        kind = kind_of_both(told_fine[i], kind);
+        beside |= told_fine[i] & (VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR);
+    }
+    listed[tile_at(i)] = kind | beside;
+}
+
+// Where the coarse pass leaves words for tiles of the finer one: after the entries.
+uint told_at(uint tile) { return view.tile_columns * view.tile_rows + tile; }
+
+// COARSE: what the finer pass has to know of one of its tiles.
+void tell_finer(int i, vec4 found)
+{
+    const uvec2 tile = gl_WorkGroupID.xy * uvec2(FINE_COLUMNS, 2) + uvec2(i % FINE_COLUMNS, i / FINE_COLUMNS);
+    const vec2 reach = i % FINE_COLUMNS < 2 ? found.xy : found.zw;
+    if (tile.x >= view.tile_columns || tile.y >= view.tile_rows)
+        return;
+    uint told = (needs_fine >> i & 1u) * VIRGA_LENS_NEEDS_FINE | (has_others >> i & 1u) * VIRGA_LENS_HAS_OTHERS;
+    if (reach.x > POINT)
+        told |= VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR;
+    told |= (has_wide >> i & 1u) * VIRGA_LENS_HAS_COARSE;
+    listed[told_at(tile.y * view.tile_columns + tile.x)] = told;
+}
+
+// FINER: the tiles are beside each other, so there are three rows of four.
+void look_beside(int lane)
+{
+    const ivec2 tile = ivec2(gl_WorkGroupID.xy) * ivec2(TILES, 1) + ivec2(lane & 3, lane >> 2) - 1;
+    const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
+    if (lane < 3 * (TILES + 2) && tile == clamp(tile, ivec2(0), size - 1))
+        if ((listed[told_at(uint(tile.y * size.x + tile.x))] & VIRGA_LENS_NEEDS_FINE) != 0u)
+            is_beside_fine = true;
+}
+
+void begin(int lane)
+{
+    first_texel = ivec2(gl_WorkGroupID.xy) << ivec2(REGION_BITS, TILE_BITS);
+    if (lane < TILES) {
+        found_near[lane] = found_far[lane] = 0u;
+        has_hard[lane] = false;
+        needs_rim[lane] = ALONE;
+        needs_fine = has_wide = has_others = 0u;
+        is_beside_fine = false;
+        if (FINER)
+            told_fine[lane] = is_tile(lane) ? listed[told_at(tile_at(lane))] : 0u;
+        if (!ALONE && is_tile(lane))
+            take_told(lane);
+    }
+    if (ALONE && !FINER && lane == 0 && gl_WorkGroupID.xy == uvec2(0u) && view.follow == 0u) {
+        written.focus_inv_m = view.focus_inv_m; // in place of focus.comp
+        written.focused = 1u;
+    }
+    barrier();
+    if (FINER) {
+        look_beside(lane);
+        barrier();
+    }
+    if (ALONE && (!FINER || ((told_fine[0] | told_fine[1]) & VIRGA_LENS_NEEDS_FINE) != 0u))
+        look_around();
+    if (!FINER || is_beside_fine)
+        barrier();
+}
+
+void main()
+{
+    const int lane = int(gl_LocalInvocationIndex), own = int(gl_LocalInvocationID.x) >> (TILE_BITS - 1);
+    begin(lane);
+    if (FINER && !is_beside_fine) {
+        if (lane < TILES && is_tile(lane))
+            enter(lane, vec2(0.0));
+        return;
+    }
+    const vec4 found = uintBitsToFloat(uvec4(found_near[0], found_far[0], found_near[1], found_far[1]));
+    const bvec2 blurred = bvec2(!is_sharp(found.xy), !is_sharp(found.zw));
+    const int around = disc_rows(max(max(found.x, found.y), max(found.z, found.w)));
+    const ivec2 columns = ivec2(blurred.x ? 0 : TILE, blurred.y ? 2 * TILE : TILE); // first, and one after the last
+    kept_first = first_texel + ivec2(columns.x, 0) - around;
+    kept_size = ivec2(columns.y - columns.x, TILE) + 2 * around;
+    const vec2 reach = own == 0 ? found.xy : found.zw;
+    has_near = reach.x > POINT;
+    if (any(blurred))
+        keep_samples();
+    barrier();
+    const bool own_blurred = own == 0 ? blurred.x : blurred.y, rim = !own_blurred && needs_rim[own];
+    for (int pair = 0; pair < 2; pair++) {
+        if (own_blurred)
+            gather_both(pair, reach);
+        if (rim)
+            empty_rim(pair);
+    }
+    if (COARSE) {
+        if (lane < FINE_TILES)
+            tell_finer(lane, found);
+    } else if (ALONE && lane < TILES && is_tile(lane)) {
+        enter(lane, lane == 0 ? found.xy : found.zw);
+    }
+}
