@@ -17,8 +17,8 @@ import sys
 from graphics_rules import disassemble, instructions, list_passes
 
 SHARED_BYTES = 16384
-# Passes that are not used where a device has less, and what the library asks for: lens_is_narrow, engine/lens/lens.c.
-ASKED_BYTES = {"lens/narrow.comp": 24640}
+# Passes that are not used where a device has less, and what the library asks for: lens_way_of, engine/lens/lens.c.
+ASKED_BYTES = {"lens/narrow.comp": 24640, "lens/coarse.comp": 24640, "lens/finer.comp": 24640}
 INVOCATIONS = 256
 BUFFERS = 0x40  # UniformMemory, among a barrier's semantics
 OF_SUBGROUPS = ("_shuffle.comp", "_narrow.comp")
