@@ -490,9 +490,12 @@ void gather_both(int pair, vec2 reach)
     vec4 known[2] = vec4[2](vec4(0.0), vec4(0.0));
     if (!SHAPED && max(reach.x, reach.y) > POINT)
         gather_two(texel, vec2(radius_at(at), radius_at(at + 1)), reach.y, known);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
+        if (COARSE) // what is before the focus and not wide is not told, but what is behind it is filled in
+            has_near = reach.x > POINT || radius_at(at + i) < -BESIDE;
         if (is_there(texel + ivec2(i, 0)))
             gather_texel(texel + ivec2(i, 0), reach, level_bit(0u, 0u) | level_bit(1u, 0u), known[i]);
+    }
 }
 
 // FINER: the kind of a tile, with the coarse fields.
