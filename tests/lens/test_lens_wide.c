@@ -181,6 +181,28 @@ static void a_street_looks_as_in_the_passes_for_any_width(void **state)
     assert_true(sum / (double)COUNT < 0.003 && worst < 0.06);
 }
 
+/* What is before the focus by less than is wide, before something dark that is wide. Its color stays on its side. */
+static void no_line_is_around_what_is_a_little_before_the_focus(void **state)
+{
+    (void)state;
+    static float other[4 * COUNT];
+    double worst = 0;
+    for (int way = 0; way < 2; way++) {
+        host h;
+        open_way(&h, way);
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++)
+                lens_paint(&h.f.scene, x, y, x < 90 ? 1 : 0, depth_of(x < 90 ? -11.5 : 20));
+        run_way(&h, way);
+        for (size_t i = 0; i < COUNT && way; i++)
+            worst = fmax(worst, fabs((double)h.f.result[4 * i] - (double)other[4 * i]));
+        memcpy(other, h.f.result, sizeof other);
+        close_host(&h);
+    }
+    printf("up to %.3f apart\n", worst);
+    assert_true(worst < 0.06);
+}
+
 /* Something in front of the focus and something behind it in the middle of what is in focus, after a picture of which
  * all was bright and out of focus. */
 static void nothing_is_left_of_the_picture_before(void **state)
@@ -267,6 +289,7 @@ int main(void)
         cmocka_unit_test(nothing_bleeds_over_what_is_in_focus),
         cmocka_unit_test(a_near_edge_is_soft_on_both_sides_and_shows_the_wall),
         cmocka_unit_test(a_street_looks_as_in_the_passes_for_any_width),
+        cmocka_unit_test(no_line_is_around_what_is_a_little_before_the_focus),
         cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(a_color_that_is_no_number_does_not_spread),
         cmocka_unit_test(other_devices_and_wider_discs_take_the_other_passes),
