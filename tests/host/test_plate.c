@@ -402,7 +402,9 @@ static void the_shade_of_a_thing_goes_with_it(void **state)
     const float shaded = s->picture.color[under * 4];
     s->cube.moves = true;
     light_with_cube_at(s, 0.1f, under); /* from now on it moves */
-    const float away = light_with_cube_at(s, -100, under), back = light_with_cube_at(s, 0, under);
+    const float away = light_with_cube_at(s, -100, under);
+    const float off = light_with_cube_at(s, -5, under); /* on the map, but its shade does not reach so far */
+    const float back = light_with_cube_at(s, 0, under);
     s->cube.moves = false;
     s->cube.primitives[0].ground = true;
     host_renderer_set_contact(s->renderer, false);
@@ -412,6 +414,7 @@ static void the_shade_of_a_thing_goes_with_it(void **state)
     assert_true(shaded < 0.95f * open);
     assert_float_equal(away, open, 1e-3);
     assert_float_equal(back, shaded, 1e-6);
+    assert_float_equal(off, open, 1e-3);
 }
 
 static void sky_pixel(void **state)
@@ -731,11 +734,11 @@ static void contact_map_has_the_height_of_the_ground(void **state)
     host_contact contact = {0};
     host_camera camera = {.position_m = {0, 0.5, 0}};
     (void)state;
-    assert_true(host_contact_place(&contact, &camera, street_m, 12) && fabs(contact.level_m) < 1e-6);
+    assert_true(host_contact_place(&contact, &camera, street_m, 12, 0) && fabs(contact.level_m) < 1e-6);
     assert_true(contact.low_m[1] <= street_m[0] && contact.low_m[1] + contact.height_m >= 12);
     camera.position_m[1] = 9.6;
-    assert_true(host_contact_place(&contact, &camera, street_m, 12) && fabs(contact.level_m) < 1e-6);
-    assert_true(host_contact_place(&contact, &camera, hills_m, 40) && fabs(contact.level_m - 8) < 1e-6);
+    assert_true(host_contact_place(&contact, &camera, street_m, 12, 0) && fabs(contact.level_m) < 1e-6);
+    assert_true(host_contact_place(&contact, &camera, hills_m, 40, 0) && fabs(contact.level_m - 8) < 1e-6);
 }
 
 int main(void)

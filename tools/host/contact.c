@@ -15,10 +15,11 @@
 #define STEP_M   2.0 /* in steps, so that it is not made in every frame */
 #define EYES_M   1.6 /* of the camera above the ground, about */
 #define SLANT    0.25f
-#define NEAR_M   1.3 /* shade reaches so far */
+#define REACH_M  1.8 /* of shade: as far as shaders/contact.comp looks, and what slanted looks move things by */
 #define FLAT_M   1.0 /* ground with no more between its lowest and highest point has one height */
 
 static const VkDescriptorType kinds[HOST_CONTACT_MAPS + 1] = {
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
 
@@ -50,6 +51,7 @@ bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *c
                                    .push_stages = VK_SHADER_STAGE_COMPUTE_BIT,
                                    .push_bytes = sizeof(struct host_contact_gpu)};
     memset(c, 0, sizeof *c);
+    c->moved = host_contact_no_box();
     if (!create_images(device, pass, c, error, error_size) ||
         !host_bindings_create(device, &def, &c->bindings, error, error_size) ||
         !host_sampler_create(device, HOST_SAMPLE_NEAREST, &c->sampler, error, error_size) ||
@@ -81,7 +83,8 @@ static bool differ(double a, double b)
     return a < b || a > b;
 }
 
-bool host_contact_place(host_contact *c, const host_camera *camera, const double ground_m[2], double high_m)
+bool host_contact_place(host_contact *c, const host_camera *camera, const double ground_m[2], double high_m,
+                        uint32_t moving_count)
 {
     const host_contact before = *c;
     const float *m = camera->view_from_world; /* its third row points back */
@@ -95,19 +98,48 @@ bool host_contact_place(host_contact *c, const host_camera *camera, const double
     c->level_m = ground_m[1] - ground_m[0] < FLAT_M
                      ? 0.5 * (ground_m[0] + ground_m[1])
                      : fmin(fmax(floor(camera->position_m[1] - EYES_M + 0.5), ground_m[0]), ground_m[1]);
-    bool moved = differ(before.height_m, c->height_m) || differ(before.level_m, c->level_m);
+    c->moving_count = moving_count;
+    bool moved = differ(before.height_m, c->height_m) || differ(before.level_m, c->level_m) ||
+                 before.moving_count != moving_count;
     for (int axis = 0; axis < 3; axis++)
         moved = moved || differ(before.low_m[axis], c->low_m[axis]);
     return !c->ready || moved;
 }
 
-bool host_contact_covers(const host_contact *c, const float low_m[3], const float high_m[3])
+host_contact_box host_contact_no_box(void)
 {
-    bool covers = true;
-    for (int axis = 0; axis < 3; axis += 2)
-        covers = covers && (double)high_m[axis] > c->low_m[axis] - NEAR_M &&
-                 (double)low_m[axis] < c->low_m[axis] + SIDE_M + NEAR_M;
-    return covers;
+    return (host_contact_box){.low_m = {1, 1}, .high_m = {-1, -1}};
+}
+
+static bool is_empty(const host_contact_box *box)
+{
+    return box->low_m[0] > box->high_m[0];
+}
+
+static void add_area(host_contact_box *box, const double low_m[2], const double high_m[2])
+{
+    const bool empty = is_empty(box);
+    for (int i = 0; i < 2; i++) {
+        box->low_m[i] = empty ? low_m[i] : fmin(box->low_m[i], low_m[i]);
+        box->high_m[i] = empty ? high_m[i] : fmax(box->high_m[i], high_m[i]);
+    }
+}
+
+void host_contact_add(const host_contact *c, const float low_m[3], const float high_m[3], uint32_t number,
+                      host_contact_box *box)
+{
+    const double low[2] = {(double)low_m[0], (double)low_m[2]}, high[2] = {(double)high_m[0], (double)high_m[2]};
+    for (int i = 0; i < 2; i++)
+        if (high[i] < c->low_m[2 * i] - REACH_M || low[i] > c->low_m[2 * i] + SIDE_M + REACH_M)
+            return;
+    add_area(box, low, high);
+    for (int axis = 0; axis < 3; axis++)
+        box->places[axis] += number * ((double)low_m[axis] + (double)high_m[axis]);
+}
+
+uint32_t host_contact_looks(host_contact_map map)
+{
+    return map == HOST_CONTACT_UNDER || map == HOST_CONTACT_MOVING_UNDER ? HOST_CONTACT_LOOKS : 1;
 }
 
 /* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things
@@ -117,7 +149,7 @@ void host_contact_look(const host_contact *c, host_contact_map map, uint32_t loo
 {
     static const float slants[HOST_CONTACT_LOOKS][2] = {{0, 0}, {SLANT, 0}, {-SLANT, 0}, {0, SLANT}, {0, -SLANT}};
     const float scale = (float)(2 / SIDE_M), rise = (float)(1 / c->height_m);
-    const bool over = map == HOST_CONTACT_OVER;
+    const bool over = map == HOST_CONTACT_OVER || map == HOST_CONTACT_MOVING_OVER;
     memset(m, 0, 16 * sizeof *m);
     m[0] = m[9] = scale;
     m[6] = over ? -rise : rise;
@@ -139,19 +171,41 @@ void host_contact_end(VkCommandBuffer cmd)
     vkCmdEndRenderPass(cmd);
 }
 
-void host_contact_gather(host_contact *c, VkCommandBuffer cmd)
+/* Workgroups from `first` on, `count` along each axis, that cover an area and what its shade reaches. */
+static void groups_of(const host_contact *c, const host_contact_box *area, uint32_t first[2], uint32_t count[2])
 {
-    const struct host_contact_gpu push = {.height_m = (float)c->height_m, .texel_m = (float)(SIDE_M / MAP_SIZE)};
-    host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
-                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                       VK_ACCESS_SHADER_WRITE_BIT);
+    const double group_m = SIDE_M / MAP_SIZE * GROUP, groups = MAP_SIZE / GROUP;
+    for (int i = 0; i < 2; i++) {
+        const double low = floor((area->low_m[i] - REACH_M - c->low_m[2 * i]) / group_m);
+        const double high = ceil((area->high_m[i] + REACH_M - c->low_m[2 * i]) / group_m);
+        first[i] = (uint32_t)fmin(fmax(low, 0), groups);
+        count[i] = (uint32_t)fmin(fmax(high, 0), groups) - first[i];
+    }
+}
+
+void host_contact_gather(host_contact *c, VkCommandBuffer cmd, bool placed, const host_contact_box *moving)
+{
+    uint32_t first[2] = {0}, count[2] = {MAP_SIZE / GROUP, MAP_SIZE / GROUP};
+    host_contact_box area = c->moved;
+    if (!is_empty(moving))
+        add_area(&area, moving->low_m, moving->high_m);
+    if (!placed)
+        groups_of(c, &area, first, count);
+    const struct host_contact_gpu push = {.height_m = (float)c->height_m,
+                                          .texel_m = (float)(SIDE_M / MAP_SIZE),
+                                          .first_x = first[0] * GROUP,
+                                          .first_y = first[1] * GROUP};
+    host_image_barrier(cmd, &c->shade, placed ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0,
+                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->gather);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->bindings.layout, 0, 1, c->bindings.sets, 0, NULL);
     vkCmdPushConstants(cmd, c->bindings.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-    vkCmdDispatch(cmd, MAP_SIZE / GROUP, MAP_SIZE / GROUP, 1);
+    vkCmdDispatch(cmd, count[0], count[1], 1);
     host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    c->moved = *moving;
     c->ready = true;
 }
 

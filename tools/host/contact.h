@@ -2,8 +2,8 @@
  *
  * The skylight's voxels are wider than a metre. A map of the ground around the camera has what they leave out: the
  * share of the sky that things up to 1.3 m high and near take away. It is made from three maps of depth: the ground
- * and all else as seen from below, and all else from above. It depends on the camera's position, and on what moves on
- * it: then it is made once in each frame.
+ * and all else as seen from below, and all else from above. It depends on the camera's position. What moves on it has
+ * maps of its own: when it has moved only these are drawn, and only the part of the map around it is made again.
  */
 #ifndef VIRGA_HOST_CONTACT_H
 #define VIRGA_HOST_CONTACT_H
@@ -14,14 +14,22 @@
 #include "shaders/frame_gpu.h"
 
 typedef enum host_contact_map {
-    HOST_CONTACT_GROUND, /* the lowest ground */
-    HOST_CONTACT_UNDER,  /* undersides of all else */
-    HOST_CONTACT_OVER,   /* tops of it */
+    HOST_CONTACT_GROUND,       /* the lowest ground */
+    HOST_CONTACT_UNDER,        /* undersides of all else */
+    HOST_CONTACT_OVER,         /* tops of it */
+    HOST_CONTACT_MOVING_UNDER, /* the same of what moves */
+    HOST_CONTACT_MOVING_OVER,
     HOST_CONTACT_MAPS,
 } host_contact_map;
 
-#define HOST_CONTACT_LOOKS  5
+#define HOST_CONTACT_LOOKS  5    /* of maps from below; maps from above and of the ground have one */
 #define HOST_CONTACT_NEAR_M 20.0 /* from the camera, it covers no more */
+
+/* Boxes around things. */
+typedef struct host_contact_box {
+    double low_m[2], high_m[2]; /* x and z, of all of them together; nothing: low_m is above high_m */
+    double places[3];           /* sum of where each is: it changes when one moves */
+} host_contact_box;
 
 typedef struct host_contact {
     host_image maps[HOST_CONTACT_MAPS]; /* depth; no image: there is no wet ground */
@@ -33,30 +41,36 @@ typedef struct host_contact {
     VkSampler sampler;
     VkPipeline gather;
 
-    bool ready;       /* it is made, so: */
-    double low_m[3];  /* its low corner, and the height of depth 0 as seen from below */
-    double height_m;  /* from there to depth 1 */
-    double moving[3]; /* where what moves on it was, as a sum */
-    double level_m;   /* about that of the ground: slanted looks move nothing there */
+    bool ready;             /* it is made, so: */
+    double low_m[3];        /* its low corner, and the height of depth 0 as seen from below */
+    double height_m;        /* from there to depth 1 */
+    double level_m;         /* about that of the ground: slanted looks move nothing there */
+    uint32_t moving_count;  /* meshes that are in none of the first three maps */
+    host_contact_box moved; /* around what moves on it, when it was made */
 } host_contact;
 
 /* `pass` draws depth alone, as the skylight's does. */
 bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *contact, char *error, size_t error_size);
 void host_contact_destroy(host_device *device, host_contact *contact);
 
-/* Chooses the place of the map, for ground between two heights and a scene up to `high_m`. Returns whether it must be
- * made again. */
-bool host_contact_place(host_contact *contact, const host_camera *camera, const double ground_m[2], double high_m);
+/* Chooses the place of the map, for ground between two heights and a scene up to `high_m` of which so many meshes move.
+ * Returns whether it must be made again. */
+bool host_contact_place(host_contact *contact, const host_camera *camera, const double ground_m[2], double high_m,
+                        uint32_t moving_count);
 
-/* Whether a box throws shade on the map where it is placed now. */
-bool host_contact_covers(const host_contact *contact, const float low_m[3], const float high_m[3]);
+/* Adds a thing to `box` if it throws shade on the map where it is placed now. `number`: of the thing, from 1. */
+void host_contact_add(const host_contact *contact, const float low_m[3], const float high_m[3], uint32_t number,
+                      host_contact_box *box);
 
-/* Records how it is made: for each map begin, draws for each of its looks, end; then gather. HOST_CONTACT_UNDER has
- * HOST_CONTACT_LOOKS looks, the others one. */
+host_contact_box host_contact_no_box(void);
+
+/* Records how it is made: for each map begin, draws for each of its looks, end; then gather. Where it has not been
+ * placed anew, only the last two maps are drawn, and `moving` says where the things on them are. */
+uint32_t host_contact_looks(host_contact_map map);
 void host_contact_begin(const host_contact *contact, VkCommandBuffer cmd, VkRenderPass pass, host_contact_map map);
 void host_contact_look(const host_contact *contact, host_contact_map map, uint32_t look, float map_from_world[16]);
 void host_contact_end(VkCommandBuffer cmd);
-void host_contact_gather(host_contact *contact, VkCommandBuffer cmd);
+void host_contact_gather(host_contact *contact, VkCommandBuffer cmd, bool placed, const host_contact_box *moving);
 
 /* Fills what the plate's shaders need to sample it. */
 void host_contact_frame(const host_contact *contact, const double camera_m[3], struct host_frame_gpu *frame);

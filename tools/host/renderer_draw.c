@@ -226,7 +226,7 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float ma
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_entry *entry = &r->entries[e];
         const host_mesh *mesh = entry->mesh;
-        if (mesh->apart || (mesh->moves && !(parts & DRAW_MOVING)))
+        if (mesh->apart || mesh->moves != ((parts & DRAW_MOVING) != 0))
             continue;
         vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
         vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
@@ -304,52 +304,54 @@ static void find_ground(const host_renderer *r, const double camera_m[3], double
         heights_m[i] = best[0] <= best[1] ? best[i] : 0;
 }
 
-/* Whether what moves by itself has done so on the map since it was made. Sub-frames of a frame share one. */
-static bool contact_has_moved(host_renderer *r, const host_camera *camera)
+/* Around what moves by itself on the map. */
+static host_contact_box moving_on_contact(const host_renderer *r)
 {
-    host_contact *c = &r->contact;
-    double sum[3] = {0};
+    host_contact_box box = host_contact_no_box();
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_mesh *mesh = r->entries[e].mesh;
-        if (!mesh->moves || !host_contact_covers(c, mesh->low, mesh->high))
-            continue;
-        for (int axis = 0; axis < 3; axis++)
-            sum[axis] += (1 + e) * ((double)mesh->low[axis] + (double)mesh->high[axis]);
+        if (mesh->moves)
+            host_contact_add(&r->contact, mesh->low, mesh->high, 1 + e, &box);
     }
-    const bool moved = memcmp(sum, c->moving, sizeof sum) != 0;
-    if (!moved || (c->ready && camera->sample > 0))
-        return false;
-    memcpy(c->moving, sum, sizeof sum);
-    return true;
+    return box;
 }
 
-/* Only wet ground has it. */
+/* Only wet ground has it. Sub-frames of a frame share it, wherever things are at their times. */
 static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
 {
     static const int parts[HOST_CONTACT_MAPS] = {[HOST_CONTACT_GROUND] = DRAW_GROUND,
-                                                 [HOST_CONTACT_UNDER] = DRAW_NO_GROUND | DRAW_MOVING,
-                                                 [HOST_CONTACT_OVER] = DRAW_NO_GROUND | DRAW_MOVING};
+                                                 [HOST_CONTACT_UNDER] = DRAW_NO_GROUND,
+                                                 [HOST_CONTACT_OVER] = DRAW_NO_GROUND,
+                                                 [HOST_CONTACT_MOVING_UNDER] = DRAW_NO_GROUND | DRAW_MOVING,
+                                                 [HOST_CONTACT_MOVING_OVER] = DRAW_NO_GROUND | DRAW_MOVING};
     float low[3], high[3], map_from_world[16];
     double ground_m[2];
     find_bounds(r, low, high);
     find_ground(r, camera->position_m, HOST_CONTACT_NEAR_M, ground_m);
     if (!r->ground.cells || !r->has_contact)
         return;
-    for (uint32_t e = 0; e < r->entry_count; e++) /* these are not in the bounds */
-        high[1] = r->entries[e].mesh->moves ? fmaxf(high[1], r->entries[e].mesh->high[1]) : high[1];
-    const bool placed = host_contact_place(&r->contact, camera, ground_m, (double)high[1]);
-    if (!contact_has_moved(r, camera) && !placed)
+    uint32_t moving_count = 0;
+    for (uint32_t e = 0; e < r->entry_count; e++) {
+        if (!r->entries[e].mesh->moves)
+            continue;
+        high[1] = fmaxf(high[1], ceilf(r->entries[e].mesh->high[1])); /* not in the bounds; whole metres, as it bobs */
+        moving_count++;
+    }
+    const bool placed = host_contact_place(&r->contact, camera, ground_m, (double)high[1], moving_count);
+    const host_contact_box moving = moving_on_contact(r);
+    const bool moved = memcmp(moving.places, r->contact.moved.places, sizeof moving.places) != 0;
+    if (!placed && (!moved || camera->sample > 0))
         return;
     host_label_begin(r->device, cmd, "contact");
-    for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
+    for (int i = placed ? 0 : HOST_CONTACT_MOVING_UNDER; i < HOST_CONTACT_MAPS; i++) {
         host_contact_begin(&r->contact, cmd, r->skylight.pass, (host_contact_map)i);
-        for (uint32_t look = 0; look < (i == HOST_CONTACT_UNDER ? HOST_CONTACT_LOOKS : 1); look++) {
+        for (uint32_t look = 0; look < host_contact_looks((host_contact_map)i); look++) {
             host_contact_look(&r->contact, (host_contact_map)i, look, map_from_world);
             draw_map(r, cmd, map_from_world, parts[i]);
         }
         host_contact_end(cmd);
     }
-    host_contact_gather(&r->contact, cmd);
+    host_contact_gather(&r->contact, cmd, placed, &moving);
     host_label_end(r->device, cmd);
 }
 

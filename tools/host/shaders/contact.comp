@@ -14,7 +14,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D ground_map;
 layout(set = 0, binding = 1) uniform sampler2D under_map;
 layout(set = 0, binding = 2) uniform sampler2D over_map;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D shade;
+layout(set = 0, binding = 3) uniform sampler2D moving_under_map;
+layout(set = 0, binding = 4) uniform sampler2D moving_over_map;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D shade;
 layout(push_constant) uniform Push { host_contact_gpu push; };
 
 const int DIRECTIONS = 12, STEPS = 6;
@@ -26,9 +28,21 @@ const float STANDS_M = 0.02; // what does not rise that far above the ground is 
 
 float below(float rise, float away) { return rise * rise / (rise * rise + away * away); } // sin^2 of the elevation
 
+// Heights above the map's bottom.
+float under_at(ivec2 at)
+{
+    return min(texelFetch(under_map, at, 0).r, texelFetch(moving_under_map, at, 0).r) * push.height_m;
+}
+
+float over_at(ivec2 at)
+{
+    return (1.0 - min(texelFetch(over_map, at, 0).r, texelFetch(moving_over_map, at, 0).r)) * push.height_m;
+}
+
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = imageSize(shade) - 1;
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy + uvec2(push.first_x, push.first_y));
+    const ivec2 last = imageSize(shade) - 1;
     const float ground = texelFetch(ground_map, texel, 0).r * push.height_m;
     float hidden = 0.0;
     for (int d = 0; d < DIRECTIONS; d++) {
@@ -37,10 +51,10 @@ void main()
         float low = 1.0, high = 0.0, most = 0.0;
         for (int i = 0; i < STEPS; i++) {
             const ivec2 at = clamp(texel + ivec2(round(AT_M[i] * along)), ivec2(0), last);
-            const float under = texelFetch(under_map, at, 0).r * push.height_m - ground;
+            const float under = under_at(at) - ground;
             if (under >= TALL_M)
                 continue;
-            const float over = (1.0 - texelFetch(over_map, at, 0).r) * push.height_m - ground;
+            const float over = over_at(at) - ground;
             if (over < STANDS_M)
                 continue;
             low = min(low, below(max(under, 0.0), END_M[i + 1]));
@@ -49,8 +63,7 @@ void main()
         }
         hidden += most * max(high - low, 0.0);
     }
-    const float under = texelFetch(under_map, texel, 0).r * push.height_m - ground;
-    const float over = (1.0 - texelFetch(over_map, texel, 0).r) * push.height_m - ground;
+    const float under = under_at(texel) - ground, over = over_at(texel) - ground;
     const vec2 here = over < STANDS_M ? vec2(HOST_CONTACT_FAR, -1.0) : min(vec2(under, over), HOST_CONTACT_FAR);
     imageStore(shade, texel, vec4(1.0 - hidden / float(DIRECTIONS), ground, here));
 }

@@ -105,6 +105,8 @@ struct host_skylight_draw_gpu { /* push constants */
 struct host_contact_gpu { /* push constants */
     float height_m;       /* from depth 0 to depth 1 of its maps */
     float texel_m;
+    HOST_UINT first_x; /* texel of the first invocation */
+    HOST_UINT first_y;
 };
 
 /* ---- shading that sub-frames share -------------------------------------------------------------------------- */
