@@ -303,6 +303,8 @@ static void to_world(const float transform[12], const double local[3], double wo
 }
 
 #define STEP_S (1.0 / 240) /* over which a velocity is taken */
+#define LIMBS  3.0         /* a leg that swings goes up to so many times as fast as the body */
+#define WHEELS 2.0         /* and the top of a wheel */
 
 static void place_wheel(const scene_vehicle *from, uint32_t index, double time_s, virga_wheel *out)
 {
@@ -394,6 +396,33 @@ static void place_lamps(shot *s, double time_s)
     s->lighting.light_count = count;
 }
 
+/* How far the points of a part go at most while the shutter is open, which closes at `time_s`. */
+static float travel_of(const scene_vehicle *from, const part *p, double time_s, double shutter_s)
+{
+    float now[12], then[12];
+    double most = 0;
+    transform_at(from, time_s, now);
+    transform_at(from, time_s - shutter_s, then);
+    for (uint32_t i = 0; i < p->mesh.vertex_count; i++) {
+        const float *at = p->vertices[i].position;
+        const double local_m[3] = {(double)at[0], (double)at[1], (double)at[2]};
+        double now_m[3], then_m[3];
+        to_world(now, local_m, now_m);
+        to_world(then, local_m, then_m);
+        most = fmax(most, hypot(hypot(now_m[0] - then_m[0], now_m[1] - then_m[1]), now_m[2] - then_m[2]));
+    }
+    return (float)most;
+}
+
+static void find_travel(const shot *s, const scene_vehicle *from, vehicle *v, double time_s)
+{
+    const double shutter_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps;
+    const float body_m = travel_of(from, &v->body, time_s, shutter_s);
+    v->body.mesh.travel_m = v->poses.pose_count ? LIMBS * body_m : body_m;
+    for (uint32_t k = 0; k < from->wheel_count; k++)
+        v->wheels[k].mesh.travel_m = WHEELS * body_m;
+}
+
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
                        char *error, size_t error_size)
 {
@@ -403,7 +432,8 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     place_lamps(s, time_s);
     (void)camera, (void)error, (void)error_size;
     for (uint32_t i = 0; i < from->vehicle_count; i++) {
-        const vehicle *v = &all->vehicles[i];
+        vehicle *v = &all->vehicles[i];
+        find_travel(s, &from->vehicles[i], v, time_s);
         for (uint32_t k = 0; k < v->occluder_count; k++)
             transform_at(&from->vehicles[i], time_s, s->occluders[v->first_occluder + k].world_from_mesh);
         for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {

@@ -54,8 +54,9 @@ typedef struct host_mesh {
     host_image *textures;
     uint32_t texture_count;
     float low[3], high[3];
-    bool apart; /* moves with the camera: it casts no shade in the skylight and is not mirrored. Default false */
-    bool moves; /* it casts no shade in the skylight, made once; who moves it sets low and high. Default false */
+    bool apart;     /* moves with the camera: it casts no shade in the skylight and is not mirrored. Default false */
+    bool moves;     /* it casts no shade in the skylight, made once; who moves it sets low and high. Default false */
+    float travel_m; /* how far its points go at most while the shutter is open; who moves it sets it. Default 0 */
 } host_mesh;
 
 /* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. Missing normals and UVs are replaced; so are

@@ -6,7 +6,8 @@
 #include "accumulate.h"
 #include "renderer_internal.h"
 
-#define MIN_ROUGHNESS 0.04f /* below, highlights of point lights fall between pixels */
+#define MIRROR_STEP_PX 1.0
+#define MIN_ROUGHNESS  0.04f /* below, highlights of point lights fall between pixels */
 
 /* ---- meshes ------------------------------------------------------------------------------------------------- */
 
@@ -395,19 +396,32 @@ static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, cons
     vkCmdEndRenderPass(cmd);
 }
 
-static bool anything_moves(const host_renderer *r)
+/* How far what moves goes at most on the picture while the shutter is open. */
+static double most_travel_px(const host_renderer *r, const host_camera *camera)
 {
-    bool moves = false;
-    for (uint32_t i = 0; i < r->entry_count && !moves; i++)
-        moves = r->entries[i].mesh->moves;
-    return moves;
+    const double focal_px = 0.5 * camera->height * fabs((double)camera->clip_from_view_plain[5]);
+    double most = 0;
+    for (uint32_t i = 0; i < r->entry_count; i++) {
+        const host_mesh *mesh = r->entries[i].mesh;
+        double apart2 = camera->near_m * camera->near_m;
+        for (int axis = 0; axis < 3; axis++) {
+            const double below = (double)mesh->low[axis] - camera->position_m[axis];
+            const double above = camera->position_m[axis] - (double)mesh->high[axis];
+            const double apart = fmax(fmax(below, above), 0);
+            apart2 += apart * apart;
+        }
+        if (mesh->moves)
+            most = fmax(most, focal_px * (double)mesh->travel_m / sqrt(apart2));
+    }
+    return most;
 }
 
 /* Sub-frames that look into one picture of the mirror. Water blurs its detail. What moves in it must be as smooth as
- * the same in front of it. */
+ * the same in front of it: from one picture to the next it goes no farther than a pixel. */
 static uint32_t mirror_share(const host_renderer *r, const host_camera *camera)
 {
-    return anything_moves(r) ? 1 : host_accumulator_share(camera->samples);
+    const uint32_t share = host_accumulator_share(camera->samples);
+    return most_travel_px(r, camera) * share <= camera->samples * MIRROR_STEP_PX ? share : 1;
 }
 
 /* The sub-frame's camera with a jitter of its own: those of every second or fourth sub-frame are alike. */
@@ -444,8 +458,10 @@ static bool draw_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host
 static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                           const host_camera *previous, char *error, size_t error_size)
 {
-    const uint32_t share = mirror_share(r, camera);
     struct host_frame_gpu frame;
+    if (camera->sample == 0 || !r->mirror_drawn)
+        r->mirror_share = mirror_share(r, camera);
+    const uint32_t share = r->mirror_share;
     if (!r->mirror.width || (r->mirror_drawn && camera->sample % share))
         return true;
     const host_camera own = mirror_camera(camera, share);

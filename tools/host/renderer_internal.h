@@ -65,6 +65,7 @@ struct host_renderer {
     host_mirror mirror;       /* width 0: none */
     double mirror_m;          /* height of its plane */
     bool mirror_drawn;        /* at least once */
+    uint32_t mirror_share;    /* sub-frames of this frame that look into one picture of it */
     float mirror_shows;       /* 1: it was drawn with the scene; 0: empty */
     float mirror_clip[16];    /* its clip space from what is relative to mirror_eye_m, with its jitter */
     double mirror_eye_m[3];   /* the camera it was drawn with */

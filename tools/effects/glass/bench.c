@@ -39,8 +39,11 @@ static const struct row {
     uint32_t balls, side;
     float width_m;
     bool bare, fog;
-} rows[] = {{3000, 1024, 1, .bare = true}, {3000, 1024, 1}, {10000, 1024, 1}, {100000, 2048, 2}},
-  fog_rows[] = {{3000, 1024, 1}, {3000, 1024, 1, .fog = true}};
+} rows[] = {{3000, 1024, 1, true, false},
+            {3000, 1024, 1, false, false},
+            {10000, 1024, 1, false, false},
+            {100000, 2048, 2, false, false}},
+  fog_rows[] = {{3000, 1024, 1, false, false}, {3000, 1024, 1, false, true}};
 
 typedef struct pane {
     virga_glass *glass;
