@@ -35,8 +35,8 @@ static void fill_value(const scene_row *row, char *member)
     case SCENE_TYPE_WHOLE: fill_numbers(row, member); break;
     case SCENE_TYPE_SWITCH: memcpy(member, &on, sizeof on); break;
     case SCENE_TYPE_CHOICE: fill_choice(row, member); break;
+    case SCENE_TYPE_GROUP: scene_group_fill_defaults(row->group, member); break;
     case SCENE_TYPE_TEXT:
-    case SCENE_TYPE_GROUP:
     case SCENE_TYPE_LIST: break;
     }
 }

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Sets numbers, switches and choices that have a default, and their vectors. Leaves texts, lists and groups, optional
- * values, and defaults that copy another key ("@path") as they are. */
+/* Sets numbers, switches and choices that have a default, their vectors, and those of groups within. Leaves texts,
+ * lists, optional values, and defaults that copy another key ("@path") as they are. */
 void scene_group_fill_defaults(const scene_group *group, void *data);
 
 #ifdef __cplusplus
