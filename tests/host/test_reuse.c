@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "moving.h"
 #include "plate_fixture.h"
 
 enum { WIDTH = 128, HEIGHT = 96, SAMPLES = 16, SHARE = 4 };
@@ -243,6 +244,20 @@ static void what_moves_by_itself_is_shaded_each_time_and_the_rest_once(void **st
     assert_float_equal(within, quarter, 1e-6);
 }
 
+/* A thing 8 m away that goes 5 cm: the picture's half height is tan(30 degrees) of the distance. */
+static void what_moves_goes_so_many_pixels_as_its_way_is_long(void **state)
+{
+    host_camera camera;
+    host_mesh mesh = {.low = {-1, 0, -3}, .high = {1, 2, 0}, .travel_m = 0.05f};
+    (void)state;
+    host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &camera);
+    assert_float_equal(host_moving_travel_px(&mesh, &camera), 0, 0);
+    mesh.moves = true;
+    assert_float_equal(host_moving_travel_px(&mesh, &camera), 0.05 / 8 * HEIGHT / 2 / tan(M_PI / 6), 1e-4);
+    mesh.high[2] = 9; /* around the camera: as if at the near plane */
+    assert_float_equal(host_moving_travel_px(&mesh, &camera), 0.05 / 0.1 * HEIGHT / 2 / tan(M_PI / 6), 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -251,6 +266,7 @@ int main(void)
         cmocka_unit_test(narrow_things_are_not_missed),
         cmocka_unit_test(edges_keep_all_sub_frames),
         cmocka_unit_test(what_moves_by_itself_is_shaded_each_time_and_the_rest_once),
+        cmocka_unit_test(what_moves_goes_so_many_pixels_as_its_way_is_long),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

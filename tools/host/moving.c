@@ -86,6 +86,20 @@ void host_moving_add(host_moving *m, const host_mesh *mesh, const host_camera *c
     merge_last(m);
 }
 
+/* As if it went across the line of sight, where it is nearest to the camera. */
+double host_moving_travel_px(const host_mesh *mesh, const host_camera *camera)
+{
+    const double focal_px = 0.5 * camera->height * fabs((double)camera->clip_from_view_plain[5]);
+    double apart2 = camera->near_m * camera->near_m;
+    for (int axis = 0; axis < 3; axis++) {
+        const double below = (double)mesh->low[axis] - camera->position_m[axis];
+        const double above = camera->position_m[axis] - (double)mesh->high[axis];
+        const double apart = fmax(fmax(below, above), 0);
+        apart2 += apart * apart;
+    }
+    return mesh->moves ? focal_px * (double)mesh->travel_m / sqrt(apart2) : 0;
+}
+
 void host_moving_push(const host_moving *m, struct host_reuse_gpu *push)
 {
     push->rect_count = m->count;

@@ -1,4 +1,5 @@
-/* moving.h - where on the picture meshes are that move by themselves: there sub-frames share no shading. */
+/* moving.h - where on the picture meshes are that move by themselves, where sub-frames share no shading, and how far
+ * they go on it. */
 #ifndef VIRGA_HOST_MOVING_H
 #define VIRGA_HOST_MOVING_H
 
@@ -15,6 +16,9 @@ typedef struct host_moving {
 
 /* Adds the rectangle around a mesh, from its bounds, and around what a mirror at the height `mirror_m` shows of it. */
 void host_moving_add(host_moving *moving, const host_mesh *mesh, const host_camera *camera, double mirror_m);
+
+/* How far a mesh goes at most on the picture while the shutter is open, in pixels; 0 if it does not move. */
+double host_moving_travel_px(const host_mesh *mesh, const host_camera *camera);
 
 /* Packs them for shaders. */
 void host_moving_push(const host_moving *moving, struct host_reuse_gpu *push);

@@ -396,32 +396,15 @@ static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, cons
     vkCmdEndRenderPass(cmd);
 }
 
-/* How far what moves goes at most on the picture while the shutter is open. */
-static double most_travel_px(const host_renderer *r, const host_camera *camera)
-{
-    const double focal_px = 0.5 * camera->height * fabs((double)camera->clip_from_view_plain[5]);
-    double most = 0;
-    for (uint32_t i = 0; i < r->entry_count; i++) {
-        const host_mesh *mesh = r->entries[i].mesh;
-        double apart2 = camera->near_m * camera->near_m;
-        for (int axis = 0; axis < 3; axis++) {
-            const double below = (double)mesh->low[axis] - camera->position_m[axis];
-            const double above = camera->position_m[axis] - (double)mesh->high[axis];
-            const double apart = fmax(fmax(below, above), 0);
-            apart2 += apart * apart;
-        }
-        if (mesh->moves)
-            most = fmax(most, focal_px * (double)mesh->travel_m / sqrt(apart2));
-    }
-    return most;
-}
-
 /* Sub-frames that look into one picture of the mirror. Water blurs its detail. What moves in it must be as smooth as
  * the same in front of it: from one picture to the next it goes no farther than a pixel. */
 static uint32_t mirror_share(const host_renderer *r, const host_camera *camera)
 {
     const uint32_t share = host_accumulator_share(camera->samples);
-    return most_travel_px(r, camera) * share <= camera->samples * MIRROR_STEP_PX ? share : 1;
+    double most_px = 0;
+    for (uint32_t i = 0; i < r->entry_count; i++)
+        most_px = fmax(most_px, host_moving_travel_px(r->entries[i].mesh, camera));
+    return most_px * share <= camera->samples * MIRROR_STEP_PX ? share : 1;
 }
 
 /* The sub-frame's camera with a jitter of its own: those of every second or fourth sub-frame are alike. */
