@@ -203,14 +203,22 @@ static void draw_scene(drawing *d)
 
 /* ---- skylight ----------------------------------------------------------------------------------------------- */
 
+/* Of all that stands still. */
 static void find_bounds(const host_renderer *r, float low[3], float high[3])
 {
     for (int c = 0; c < 3; c++) {
-        low[c] = r->entry_count ? r->entries[0].mesh->low[c] : -1.0f;
-        high[c] = r->entry_count ? r->entries[0].mesh->high[c] : 1.0f;
-        for (uint32_t i = 1; i < r->entry_count && !r->entries[i].mesh->apart && !r->entries[i].mesh->moves; i++) {
-            low[c] = fminf(low[c], r->entries[i].mesh->low[c]);
-            high[c] = fmaxf(high[c], r->entries[i].mesh->high[c]);
+        low[c] = FLT_MAX;
+        high[c] = -FLT_MAX;
+        for (uint32_t i = 0; i < r->entry_count; i++) {
+            const host_mesh *mesh = r->entries[i].mesh;
+            if (mesh->apart || mesh->moves)
+                continue;
+            low[c] = fminf(low[c], mesh->low[c]);
+            high[c] = fmaxf(high[c], mesh->high[c]);
+        }
+        if (low[c] > high[c]) { /* nothing does */
+            low[c] = -1.0f;
+            high[c] = 1.0f;
         }
     }
 }
