@@ -18,6 +18,11 @@ for program in "$@"; do
 done
 "$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
 
+# Writes $work/road.obj: level ground of 6 x 6 m.
+write_road() {
+    printf '%s\n' 'o road' 'v -3 0 -3' 'v 3 0 -3' 'v 3 0 3' 'v -3 0 3' 'f 1 4 3 2' >"$work/road.obj"
+}
+
 # draw SCENE FOLDER OPTION...: renders $work/SCENE.yaml into $work/FOLDER. Any message of the validation layer is a
 # failure.
 draw() {

@@ -17,14 +17,7 @@ done
 python3 "$here/check_people.py" "$assets"/scenes/{umbrella,raincoat}.glb || fail "surfaces"
 
 # Driving rain on dry ground: 0.1 m aside in a metre of fall. The camera looks under the umbrella.
-cat >"$work/road.obj" <<'END_OF_OBJ'
-o road
-v -3 0 -3
-v 3 0 -3
-v 3 0 3
-v -3 0 3
-f 1 4 3 2
-END_OF_OBJ
+write_road
 cp "$assets/scenes/umbrella.glb" "$work"
 cat >"$work/wait.yaml" <<'YAML'
 virga: 1

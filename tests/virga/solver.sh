@@ -61,14 +61,7 @@ draw bodies bodies --points --stats --frames 1-5 --samples 2
 python3 "$here/check_bodies.py" "$work/bodies" 20 || fail "bodies"
 
 # A box drives through a puddle: its water becomes particles there, and all of it is counted.
-cat >"$work/road.obj" <<'END'
-o road
-v -3 0 -3
-v 3 0 -3
-v 3 0 3
-v -3 0 3
-f 1 4 3 2
-END
+write_road
 cat >"$work/puddle.yaml" <<'YAML'
 virga: 1
 meshes: [{file: road.obj}]

@@ -4,14 +4,7 @@
 # Usage: vehicles.sh VIRGA
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh" "$1" python3
-cat >"$work/road.obj" <<'END'
-o road
-v -3 0 -3
-v 3 0 -3
-v 3 0 3
-v -3 0 3
-f 1 4 3 2
-END
+write_road
 # Its upper side is a roof of 1 m^2; the wheel is a triangle around the origin.
 cat >"$work/cart.obj" <<'END'
 o roof
