@@ -30,10 +30,12 @@ float nearness(vec2 apart, float radius)
 // where its disc is not wide (VIRGA_LENS_COARSE_FROM), so such a texel gets the far field of the wide ones beside it.
 #define BESIDE BY_SCALE(2.0, POINT)
 
-// Whether light of this radius is gathered from single texels, up to radii of `most`.
+// Whether light of this radius is gathered from single texels, up to radii of `most`. With NARROW the includer also has
+// gathering_circle.
 #ifdef NARROW
 #define is_fine(radius, most) true
 #else
+float gathering_circle(float radius) { return radius; }
 bool is_fine(float radius, float most) { return radius <= most; }
 #endif
 
@@ -260,7 +262,8 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 // the focus and behind it. `levels`: that have such light. `known`: what gather_far finds, if is_known.
 void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
 {
-    const vec4 own = sample_in(row_of(texel), texel);
+    vec4 own = sample_in(row_of(texel), texel);
+    own.a = gathering_circle(own.a);
     if (max(reach.x, reach.y) <= POINT) {
         store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));
         return;

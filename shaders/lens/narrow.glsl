@@ -77,12 +77,17 @@ shared bool is_beside_fine; // something is out of focus in the tiles around, wh
 ivec2 first_texel; // of the tiles, in the work image
 ivec2 kept_first;
 ivec2 kept_size;
+float kept_reach; // no texel may gather from farther away: there are no samples
 
 // Where a texel of this row would be if it were in the work image's first column. Each lane would multiply for a texel.
 int row_of(ivec2 texel) { return (texel.y - kept_first.y) * kept_size.x - kept_first.x; }
 
 vec3 color_of(uvec4 words) { return vec3(unpackHalf2x16(words.x), uintBitsToFloat(words.y)); }
 float radius_at(int at) { return uintBitsToFloat(kept[at].z); }
+
+// The circle of a texel that gathers. FINER keeps no samples for the reach of wide ones, whose texels are read between
+// those beside them. Elsewhere a circle may be longer than what was told of it, by the rounding of both.
+float gathering_circle(float radius) { return clamp(radius, -kept_reach, kept_reach); }
 
 vec4 sample_in(int row, ivec2 texel)
 {
@@ -489,7 +494,7 @@ void gather_both(int pair, vec2 reach)
     const int at = row_of(texel) + texel.x;
     vec4 known[2] = vec4[2](vec4(0.0), vec4(0.0));
     if (!SHAPED && max(reach.x, reach.y) > POINT)
-        gather_two(texel, vec2(radius_at(at), radius_at(at + 1)), reach.y, known);
+        gather_two(texel, vec2(gathering_circle(radius_at(at)), gathering_circle(radius_at(at + 1))), reach.y, known);
     for (int i = 0; i < 2; i++) {
         if (COARSE) // what is before the focus and not wide is not told, but what is behind it is filled in
             has_near = reach.x > POINT || radius_at(at + i) < -BESIDE;
@@ -592,7 +597,8 @@ void main()
     }
     const vec4 found = uintBitsToFloat(uvec4(found_near[0], found_far[0], found_near[1], found_far[1]));
     const bvec2 blurred = bvec2(!is_sharp(found.xy), !is_sharp(found.zw));
-    const int around = disc_rows(max(max(found.x, found.y), max(found.z, found.w)));
+    kept_reach = max(max(found.x, found.y), max(found.z, found.w));
+    const int around = disc_rows(kept_reach);
     const ivec2 columns = ivec2(blurred.x ? 0 : TILE, blurred.y ? 2 * TILE : TILE); // first, and one after the last
     kept_first = first_texel + ivec2(columns.x, 0) - around;
     kept_size = ivec2(columns.y - columns.x, TILE) + 2 * around;
