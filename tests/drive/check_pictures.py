@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Looks at PNG files of the sample game. Usage: check_pictures.py RAIN.png DRY.png LEAST_SHARE
+"""Looks at PNG files of the sample game. Usage: check_pictures.py RAIN.png DRY.png LEAST_SHARE [walls]
 
-Both must show something, and differ at so large a share of their pixels. Python 3 standard library only.
+Both must show something, and differ at so large a share of their pixels. With `walls`: the wind blows to the right, so
+the brick on the right gets darker in rain beside that on the left. Python 3 standard library only.
 """
 import struct
 import sys
@@ -54,3 +55,22 @@ for path, picture in zip(sys.argv[1:3], (rain, dry)):
 other = sum(abs(a - b) > 18 for a, b in zip(rain, dry)) / len(rain)
 assert other > float(sys.argv[3]), f"{sys.argv[1]} and {sys.argv[2]} differ at {100 * other:.2f} % of the pixels"
 print(f"{100 * other:.1f} % of the pixels differ")
+
+
+def walls_darken():
+    """How bright brick is in rain, of how bright it is dry: on the left, and on the right."""
+    pictures = [read(path) for path in sys.argv[1:3]]
+    width, height = pictures[0][:2]
+    shares = []
+    for left, right, top, bottom in ((0.0, 0.14, 0.04, 0.18), (0.86, 1.0, 0.12, 0.24)):
+        sums = [sum(brightness(picture)[y * width + x]
+                    for y in range(int(top * height), int(bottom * height))
+                    for x in range(int(left * width), int(right * width))) for picture in pictures]
+        shares.append(sums[0] / sums[1])
+    return shares
+
+
+if len(sys.argv) > 4:
+    lee, front = walls_darken()
+    print(f"walls in rain: {lee:.2f} of what they are dry on the left, {front:.2f} on the right")
+    assert front < lee - 0.05  # rain before them makes both brighter

@@ -47,6 +47,11 @@ render outside_rain --rain 80 --outside
 without_layers outside_dry --rain 0 --outside
 python3 "$look" "$work/outside_rain.png" "$work/outside_dry.png" 0.02
 
+# Walls that the wind blows at are wet.
+without_layers walls_rain --rain 10 --outside --frames 2
+without_layers walls_dry --rain 0 --outside --frames 2
+python3 "$look" "$work/walls_rain.png" "$work/walls_dry.png" 0 walls
+
 # The pipelines that a run compiled are kept, and taken by the next.
 render first --rain 10 --frames 1 --pipelines "$work/pipelines"
 [ -s "$work/pipelines" ] || { echo "no pipelines were kept"; exit 1; }

@@ -157,6 +157,7 @@ static bool create_rain(drive *d)
     def.with_ground = true;
     def.with_splash = true;
     def.with_contacts = true; /* the wheels throw water */
+    def.splash.max_drips = MAX_DRIPS;
     def.panes = &windshield;
     def.pane_count = 1;
     virga_scene_cost(&def, d->kind, d->stage.width, d->stage.height, &d->expected);
@@ -209,6 +210,12 @@ static bool set_rain(drive *d)
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
 
+/* Edges of awnings, balconies and trees, found when the street was loaded. */
+static bool set_drips(drive *d)
+{
+    return fine(d, virga_splash_set_drips(virga_scene_splash(d->rain), d->drips, d->drip_count), "edges that drip");
+}
+
 static bool set_rate(drive *d)
 {
     virga_rain_settings rain = virga_default_rain_settings();
@@ -218,6 +225,7 @@ static bool set_rate(drive *d)
     rain.gust_m_s = 0.8f;
     rain.streak_gain = 2;
     rain.light_gain = 2;
+    rain.walls.start_h = 1;  /* walls are wet from that hour as well */
     rain.near_fade_m = 1.6f; /* hides nearer drops, so that none falls inside the car */
     rain.lighting = d->lighting;
     return fine(d, virga_rain_set(virga_scene_rain(d->rain), &rain), "rain");
@@ -439,7 +447,9 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 
     virga_ground_maps maps; /* sampled by the street's material */
     virga_ground_maps_get(virga_scene_ground(d->rain), &maps);
-    draw_world(d, cmd, &maps); /* color, depth; `behind` is a copy of color now */
+    virga_walls walls;
+    virga_rain_walls_get(virga_scene_rain(d->rain), &walls);
+    draw_world(d, cmd, &maps, &walls); /* color, depth; `behind` is a copy of color now */
 
     stage_over_begin(&d->stage, cmd);
     const bool splashes = fine(d, virga_splash_draw(virga_scene_splash(d->rain), cmd, d->target), "splashes");
@@ -521,7 +531,7 @@ static bool run(drive *d)
     if (!open_device(d) ||
         !stage_create(&d->stage, &d->device, d->window, d->surface, d->chosen.width, d->chosen.height, d->error,
                       sizeof d->error) ||
-        !create_context(d) || !create_rain(d) || !set_rain(d) || !load_world(d))
+        !create_context(d) || !create_rain(d) || !set_rain(d) || !load_world(d) || !set_drips(d))
         return false;
     car_place(&d->car, &d->track, d->chosen.start_m);
     light_up(d);

@@ -17,6 +17,7 @@
 #define MAX_PARTS     64 /* primitives of the car */
 #define WIPERS        2
 #define MAX_RATE_MM_H 200
+#define MAX_DRIPS     512 /* pieces of edges from which rain drips */
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];
@@ -70,6 +71,8 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
+    virga_drip_site drips[MAX_DRIPS]; /* found in the street's mesh */
+    uint32_t drip_count;
     VkPhysicalDeviceType kind;  /* of the device ... */
     virga_quality quality;      /* ... which the definitions are for ... */
     virga_scene_costs expected; /* ... and what they may take on it */
@@ -87,9 +90,9 @@ void print_help(void);
 bool open_window(drive *d);
 void close_window(drive *d);
 
-/* world.c: loads street, car and sky, and draws them into the stage's color and depth. */
+/* world.c: loads street, car and sky, finds the edges that drip, and draws all into the stage's color and depth. */
 bool load_world(drive *d);
-void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps);
+void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps, const virga_walls *walls);
 void unload_world(drive *d);
 
 /* windshield.c: fills the mask of the pane; updates the mesh of the wipers; moves the wipers by dt_s. */

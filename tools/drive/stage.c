@@ -115,6 +115,43 @@ static void fill_shade(const stage_camera *camera, const stage_shade *shade, str
     }
 }
 
+/* ---- walls */
+
+static void fill_walls(const stage *s, const stage_camera *camera, const virga_walls *walls, struct drive_frame_gpu *to)
+{
+    host_shelter_coordinates(&s->shelter, walls, camera->position_m, to->shelter_low, to->shelter_slant);
+    for (uint32_t row = 0; row < DRIVE_WALL_ROWS; row++)
+        for (uint32_t i = 0; i < DRIVE_WALL_MATERIALS; i++)
+            memcpy(to->walls[row * DRIVE_WALL_MATERIALS + i], &walls->rows[row][i], sizeof(virga_wall_gpu));
+}
+
+/* Leaves let rain through, soon as drips. */
+void stage_shelter(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_walls *walls,
+                   const host_mesh *mesh)
+{
+    host_camera at = {.position_m = {camera->position_m[0], camera->position_m[1], camera->position_m[2]}};
+    struct drive_surface_gpu surface = {.base_color = {0}};
+    const VkDeviceSize zero = 0;
+    memcpy(at.view_from_world, camera->view_from_world, sizeof at.view_from_world);
+    if (!host_shelter_place(&s->shelter, walls, &at, (double)mesh->low[1], (double)mesh->high[1]))
+        return;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            surface.from_mesh[row][column] = s->shelter.map_from_world[4 * column + row];
+    host_shelter_begin(&s->shelter, cmd, s->shelter_pass);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->shelter_pipeline);
+    vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &zero);
+    vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdPushConstants(cmd, s->world.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof surface, &surface);
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const host_primitive *primitive = &mesh->primitives[i];
+        if (mesh->materials[primitive->material].alpha != HOST_ALPHA_MASK)
+            vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+    }
+    host_shelter_end(&s->shelter, cmd);
+}
+
 /* ---- a frame */
 
 static uint32_t slot(const stage *s)
@@ -165,13 +202,14 @@ static void clear_behind(const stage *s, VkCommandBuffer cmd)
 }
 
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
-                       const virga_lighting *lighting)
+                       const virga_walls *walls, const virga_lighting *lighting)
 {
     struct drive_frame_gpu *to = s->uniforms[slot(s)].mapped;
     memset(to, 0, sizeof *to);
     fill_camera(s, camera, to);
     fill_ground(camera, maps, to);
     fill_lights(camera, lighting, to);
+    fill_walls(s, camera, walls, to);
     fill_sky(lighting->environment_sh, to);
     fill_shade(camera, &s->shade, to);
     if (!s->has_last)
@@ -214,7 +252,8 @@ static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_dra
         if (sky < 0 || (material->alpha == HOST_ALPHA_GLASS) != glass)
             continue;
         fill_material(material, sky, surface);
-        surface->traits[3] = primitive->ground ? (float)(1 + primitive->surface) : 0;
+        surface->traits[3] =
+            primitive->ground ? (float)(1 + primitive->surface) : (float)(-1 - host_wall_material(primitive, material));
         if (glass)
             vkCmdSetBlendConstants(cmd, (const float[4]){through, through, through, 0});
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world.layout, 1, 1, &sets[primitive->material],
@@ -358,6 +397,8 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
         host_set_write_image(s->device, set, 5, linear, maps->ripples, general);
         host_set_write_image(s->device, set, 6, linear, s->behind.view, read);
         host_set_write_image(s->device, set, 7, nearest, maps->far_wetness, general);
+        host_set_write_image(s->device, set, 8, nearest, s->shelter.map.view,
+                             VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     }
     host_set_write_image(s->device, s->show.sets[0], 0, nearest, s->color.view, read);
 }

@@ -1,7 +1,8 @@
 /* stage.h - the sample's small renderer: a window's swapchain or a picture for a file, the passes, one material. It
- * makes no call of Virga. What is drawn goes through four stations of a frame:
+ * makes no call of Virga. What is drawn goes through stations of a frame:
  *
  *     stage_begin            a command buffer, and an image to show
+ *     stage_shelter          now and then: what driving rain meets first
  *     stage_world_begin/end  sky and meshes into `color` and `depth`; then `behind` is a copy of `color`
  *     stage_over_begin/end   what is blended over `color`, while `depth` and `behind` may be sampled
  *     (stage_sampled, and stage_over_begin/end: what samples `color` and is then blended over it, as a lens)
@@ -14,12 +15,14 @@
 
 #include <virga/ground.h>
 #include <virga/light.h>
+#include <virga/walls.h>
 
 #include "descriptors.h"
 #include "environment.h"
 #include "mesh.h"
 #include "passes.h"
 #include "shaders/drive_gpu.h"
+#include "shelter.h"
 
 #define STAGE_IMAGES 8 /* of a swapchain, at most */
 #define STAGE_MESHES 16
@@ -66,13 +69,15 @@ typedef struct stage {
 
     host_image color, depth, behind; /* RGBA16F with 1 / distance in alpha of `behind`; D32 */
     host_image through;              /* what is behind the windshield: `color` with rain and splashes */
-    VkRenderPass world_pass, over_pass, show_pass;
+    host_shelter shelter;            /* where walls stay dry */
+
+    VkRenderPass world_pass, over_pass, show_pass, shelter_pass;
     VkFramebuffer world_framebuffer, over_framebuffer;
 
     host_bindings world, show;             /* a set for each frame in flight; one set */
     VkDescriptorSetLayout material_layout; /* set 1 of `world` */
     VkDescriptorPool material_pool;
-    VkPipeline world_pipeline, glass_pipeline, sky_pipeline, show_pipeline;
+    VkPipeline world_pipeline, glass_pipeline, sky_pipeline, show_pipeline, shelter_pipeline;
     VkSampler samplers[HOST_SAMPLINGS];
     host_buffer uniforms[HOST_FRAMES]; /* drive_frame_gpu */
     host_image white;
@@ -104,8 +109,13 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
 /* Begins a frame. *cmd is NULL if none can be drawn now: the window is minimised, or it was resized. Then *resized is
  * set, and the size, `depth` and `behind` have changed. */
 bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size);
+
+/* Draws the map of shelter again if the camera or the rain's slant has moved on: what keeps rain off walls is in a
+ * mesh that does not move. */
+void stage_shelter(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_walls *walls,
+                   const host_mesh *mesh);
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
-                       const virga_lighting *lighting);
+                       const virga_walls *walls, const virga_lighting *lighting);
 void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw);
 void stage_world_end(stage *s, VkCommandBuffer cmd);
 void stage_through(stage *s, VkCommandBuffer cmd);

@@ -1,16 +1,52 @@
 /* world.c - the drawn world: street, walls that its model does not have, car and sky. */
 #include "game.h"
 
+#include "drip_edges.h"
 #include "exr.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define DRIPS_HALF_M 48.0 /* of the square in which edges drip */
+#define GUTTER_M     2.5  /* where water runs farther, a gutter takes it */
 
 static bool add_boxes(drive *d, const boxes *b, const host_material *material, host_mesh *mesh)
 {
     return host_mesh_create(&d->device, b->vertices, b->count * 24, b->indices, b->count * 36, material, mesh, d->error,
                             sizeof d->error) &&
            stage_add(&d->stage, mesh, d->error, sizeof d->error);
+}
+
+/* Awnings, balconies and trees in a square around the middle of the street. */
+static bool find_drips(drive *d, const host_vertex *vertices, const uint32_t *indices)
+{
+    const host_mesh *street = &d->street;
+    const double middle[2] = {0.5 * (double)(street->low[0] + street->high[0]),
+                              0.5 * (double)(street->low[2] + street->high[2])};
+    const double half_m = 0.5 * (double)fmaxf(street->high[0] - street->low[0], street->high[2] - street->low[2]);
+    host_drip_edges *edges = host_drip_edges_begin(middle, fmin(half_m, DRIPS_HALF_M));
+    host_eave *eaves = NULL;
+    uint32_t found = 0, eave_count = 0;
+    if (!edges)
+        return host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
+    host_drip_edges_add(edges, street, vertices, indices);
+    d->drip_count = host_drip_edges_find(edges, GUTTER_M, d->drips, MAX_DRIPS, &found, &eaves, &eave_count);
+    host_drip_edges_end(edges);
+    free(eaves);
+    return d->drip_count != UINT32_MAX || host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
+}
+
+static bool load_street(drive *d)
+{
+    host_vertex *vertices = NULL;
+    uint32_t *indices = NULL;
+    const bool ok = host_mesh_load_kept(&d->device, d->chosen.model, NULL, &d->street, &vertices, &indices, d->error,
+                                        sizeof d->error) &&
+                    find_drips(d, vertices, indices) && stage_add(&d->stage, &d->street, d->error, sizeof d->error);
+    free(vertices);
+    free(indices);
+    return ok;
 }
 
 bool load_world(drive *d)
@@ -26,9 +62,7 @@ bool load_world(drive *d)
     sky.pixels = pixels;
     const bool lit = host_environment_create(&d->device, &sky, &d->environment, error, error_size);
     free(pixels);
-    if (!lit || !track_load(d->chosen.track, &d->track, error, error_size) ||
-        !host_mesh_load(&d->device, d->chosen.model, NULL, &d->street, error, error_size) ||
-        !stage_add(&d->stage, &d->street, error, error_size))
+    if (!lit || !track_load(d->chosen.track, &d->track, error, error_size) || !load_street(d))
         return false;
     b->count = 0;
     for (uint32_t i = 0; i < d->track.box_count; i++)
@@ -71,7 +105,7 @@ static void draw_car(drive *d, VkCommandBuffer cmd)
     stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
 }
 
-void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps)
+void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps, const virga_walls *walls)
 {
     const float upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     stage_draw draw = {.mesh = &d->street, .sky = 1};
@@ -79,7 +113,8 @@ void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps)
     d->stage.shade = (stage_shade){.half_m = {CAR_HALF_WIDTH_M, CAR_HALF_LENGTH_M}};
     memcpy(d->stage.shade.position_m, d->car.position_m, sizeof d->car.position_m);
     memcpy(d->stage.shade.axes, d->car.axes, sizeof d->car.axes);
-    stage_world_begin(&d->stage, cmd, &d->camera, maps, &d->lighting);
+    stage_shelter(&d->stage, cmd, &d->camera, walls, &d->street);
+    stage_world_begin(&d->stage, cmd, &d->camera, maps, walls, &d->lighting);
     stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
     draw.mesh = &d->blocks;
     if (d->track.box_count)

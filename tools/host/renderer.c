@@ -6,6 +6,8 @@
 
 #include "renderer_internal.h"
 
+#define SHELTER_TEXELS 2048
+
 /* ---- descriptors -------------------------------------------------------------------------------------------- */
 
 /* An image that is only sampled, or the maps of the ground, which the simulation writes. */
@@ -188,7 +190,7 @@ bool host_renderer_set_walls(host_renderer *r, const virga_walls *walls, char *e
     r->walls = *walls;
     if (r->shelter.slice.framebuffer)
         return true;
-    if (!host_shelter_create(r->device, r->skylight.pass, &r->shelter, error, error_size))
+    if (!host_shelter_create(r->device, r->skylight.pass, SHELTER_TEXELS, &r->shelter, error, error_size))
         return false;
     write_view(r, FRAME_AT_SHELTER, HOST_SAMPLE_NEAREST, r->shelter.map.view,
                VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);

@@ -51,18 +51,6 @@ static uint32_t lamps_of(const host_renderer *r, const host_primitive *primitive
     return bits;
 }
 
-/* What rain does on it where it is no ground; -1: glass, whose drops are another effect's. Where names say nothing,
- * what is smooth is painted. */
-static int32_t wall_material(const host_primitive *primitive, const host_material *material)
-{
-    const uint32_t surface = primitive->surface;
-    if (material->alpha == HOST_ALPHA_GLASS || surface == VIRGA_MATERIAL_GLASS || surface >= HOST_WALL_MATERIALS)
-        return -1;
-    if (surface == VIRGA_MATERIAL_DEFAULT && material->metallic > 0.5f)
-        return VIRGA_MATERIAL_STEEL;
-    return surface == VIRGA_MATERIAL_DEFAULT && material->roughness < 0.5f ? VIRGA_MATERIAL_PLASTIC : (int32_t)surface;
-}
-
 static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id, uint32_t lamps,
                          struct host_surface_gpu *out)
 {
@@ -80,7 +68,7 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
     out->traits[2] = (float)id;
     out->traits[3] = bits;
     out->lamps[0] = (float)lamps;
-    out->lamps[1] = (float)wall_material(primitive, material);
+    out->lamps[1] = (float)host_wall_material(primitive, material);
 }
 
 /* Whether a pipeline draws a material. */

@@ -4,21 +4,32 @@
 #include <math.h>
 #include <string.h>
 
-#define MAP_SIZE 2048
-#define SIDE_M   32.0
-#define AHEAD_M  9.0   /* its middle is so far before the camera */
-#define STEP_M   4.0   /* in steps, so that it is not drawn in every frame */
-#define SLANTS   256.0 /* steps of the slant, 1 / this wide: as narrow as a pixel below an awning */
-#define REACH_M  64.0  /* what is higher above the camera shelters nothing */
+#define SIDE_M  32.0
+#define AHEAD_M 9.0   /* its middle is so far before the camera */
+#define STEP_M  4.0   /* in steps, so that it is not drawn in every frame */
+#define SLANTS  256.0 /* steps of the slant, 1 / this wide: as narrow as a pixel below an awning */
+#define REACH_M 64.0  /* what is higher above the camera shelters nothing */
 
-bool host_shelter_create(host_device *device, VkRenderPass pass, host_shelter *s, char *error, size_t error_size)
+int32_t host_wall_material(const host_primitive *primitive, const host_material *material)
+{
+    const uint32_t surface = primitive->surface;
+    if (material->alpha == HOST_ALPHA_GLASS || surface == VIRGA_MATERIAL_GLASS || surface >= HOST_WALL_MATERIALS)
+        return -1;
+    if (surface == VIRGA_MATERIAL_DEFAULT && material->metallic > 0.5f)
+        return VIRGA_MATERIAL_STEEL;
+    return surface == VIRGA_MATERIAL_DEFAULT && material->roughness < 0.5f ? VIRGA_MATERIAL_PLASTIC : (int32_t)surface;
+}
+
+bool host_shelter_create(host_device *device, VkRenderPass pass, uint32_t size, host_shelter *s, char *error,
+                         size_t error_size)
 {
     const host_image_def def = {
         .format = VK_FORMAT_D32_SFLOAT,
-        .extent = {MAP_SIZE, MAP_SIZE, 1},
+        .extent = {size, size, 1},
         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
         .name = "shelter map",
     };
+    s->size = size;
     return host_image_create(device, &def, &s->map, error, error_size) &&
            host_slice_create(device, pass, &s->map, 0, 0, &s->slice, error, error_size);
 }
@@ -68,7 +79,7 @@ bool host_shelter_place(host_shelter *s, const virga_walls *walls, const host_ca
 
 void host_shelter_begin(const host_shelter *s, VkCommandBuffer cmd, VkRenderPass pass)
 {
-    host_pass_begin(cmd, pass, s->slice.framebuffer, MAP_SIZE, MAP_SIZE, 0);
+    host_pass_begin(cmd, pass, s->slice.framebuffer, s->size, s->size, 0);
 }
 
 void host_shelter_end(host_shelter *s, VkCommandBuffer cmd)
@@ -77,17 +88,23 @@ void host_shelter_end(host_shelter *s, VkCommandBuffer cmd)
     s->ready = true;
 }
 
+void host_shelter_coordinates(const host_shelter *s, const virga_walls *walls, const double camera_m[3], float low[4],
+                              float slant[4])
+{
+    for (int axis = 0; axis < 2; axis++) {
+        low[2 * axis] = (float)(camera_m[2 * axis] + s->slant[axis] * camera_m[1] - s->low_m[axis]);
+        slant[axis] = (float)s->slant[axis];
+    }
+    low[1] = (float)(s->top_m - camera_m[1]);
+    low[3] = (float)s->height_m;
+    slant[2] = walls->spread;
+    slant[3] = (float)(1 / SIDE_M);
+}
+
 void host_shelter_frame(const host_shelter *s, const virga_walls *walls, const double camera_m[3],
                         struct host_frame_gpu *frame)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        frame->shelter_low[2 * axis] = (float)(camera_m[2 * axis] + s->slant[axis] * camera_m[1] - s->low_m[axis]);
-        frame->shelter_slant[axis] = (float)s->slant[axis];
-    }
-    frame->shelter_low[1] = (float)(s->top_m - camera_m[1]);
-    frame->shelter_low[3] = (float)s->height_m;
-    frame->shelter_slant[2] = walls->spread;
-    frame->shelter_slant[3] = (float)(1 / SIDE_M);
+    host_shelter_coordinates(s, walls, camera_m, frame->shelter_low, frame->shelter_slant);
     for (uint32_t row = 0; row < VIRGA_WALL_ROWS; row++)
         for (uint32_t i = 0; i < HOST_WALL_MATERIALS; i++) {
             const virga_wall_gpu *from = &walls->rows[row][i];

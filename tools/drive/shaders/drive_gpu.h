@@ -14,7 +14,9 @@ typedef float drive_mat4[16];
 #define DRIVE_LIGHT struct drive_light_gpu
 #endif
 
-#define DRIVE_LIGHTS 16
+#define DRIVE_LIGHTS         16
+#define DRIVE_WALL_ROWS      17 /* VIRGA_WALL_ROWS */
+#define DRIVE_WALL_MATERIALS 17 /* of virga_material */
 
 struct drive_light_gpu {
     DRIVE_VEC4 position;  /* relative to the camera, 1 / range or 0 */
@@ -36,14 +38,18 @@ struct drive_frame_gpu {
     DRIVE_VEC4 ripples;       /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
     DRIVE_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     DRIVE_VEC4 shade[3];      /* rows: a point relative to the camera as the car has it, 1 at its ends; y in metres */
+    DRIVE_VEC4 shelter_low;   /* a point's place on the map of shelter, see host_shelter_coordinates; w 0: no map */
+    DRIVE_VEC4 shelter_slant;
     DRIVE_LIGHT lights[DRIVE_LIGHTS];
+    DRIVE_VEC4 walls[DRIVE_WALL_ROWS * DRIVE_WALL_MATERIALS]; /* virga_wall_gpu, row by row */
 };
 
 struct drive_surface_gpu {   /* push constants */
     DRIVE_VEC4 from_mesh[3]; /* rows: from a point of the mesh to a point relative to the camera */
     DRIVE_VEC4 base_color;   /* times the texture's */
     DRIVE_VEC4 emissive;     /* times the texture's; w: roughness */
-    /* metallic, alpha below which it is cut out, share of the sky that it sees; 1 + the material, where it is ground */
+    /* metallic, alpha below which it is cut out, share of the sky that it sees; 1 + the material where it is ground,
+     * less than 0: -1 - the material where it is a wall, 0: neither */
     DRIVE_VEC4 traits;
 };
 

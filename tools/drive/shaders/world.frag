@@ -20,6 +20,8 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 layout(location = 0) out vec4 out_color;
 
+#include "wall.glsl"
+
 const float PI = 3.14159265;
 const int STEPS = 14;
 
@@ -161,6 +163,8 @@ void main()
     float puddle = level * smoothstep(0.5, 1.6, water.depth_mm);
     albedo *= mix(1.0, mix(1.0, 0.2, clamp((roughness - 0.5) / 0.4, 0.0, 1.0)), damp);
     roughness = mix(roughness, max(0.3 * roughness, 0.12), max(film, 0.35 * damp));
+    if (sky > 0.5) // not in a cabin
+        wet_wall(wall_water(n), metallic, albedo, roughness);
 
     sky *= beside_car(in_relative, n.y);
     float open = sky * mix(0.55, 1.0, 0.5 + 0.5 * n.y), n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
