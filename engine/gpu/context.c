@@ -4,6 +4,7 @@
 #include "core/settings.h"
 #include "gpu/builds.h"
 #include "gpu/errors.h"
+#include "gpu/lanes.h"
 #include "gpu/functions.h"
 #include "gpu/pipeline_cache.h"
 #include "gpu/retire.h"
@@ -119,6 +120,7 @@ static void destroy_objects(virga_context *context)
     for (int i = 0; i < 2; i++)
         VIRGA_DESTROY(context, Sampler, samplers[i]);
     virga_timers_destroy(context);
+    virga_lanes_destroy(context);
     VIRGA_DESTROY(context, PipelineCache, context->pipeline_cache);
 }
 

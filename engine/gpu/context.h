@@ -37,6 +37,7 @@ struct virga_context {
     uint64_t lost_frames;                              /* number of frames of which something was not executed */
     uint64_t lost_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* the newest of them in each slot */
     virga_timers timers;
+    struct virga_lanes *lanes; /* see gpu/lanes.h. NULL: there were none so far */
 
     /* Memory, see gpu/memory.c and gpu/budget.c. */
     virga_device_memory device_memory;

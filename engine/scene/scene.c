@@ -7,6 +7,7 @@
 #include "glass/glass.h"
 #include "gpu/context.h"
 #include "gpu/errors.h"
+#include "gpu/lanes.h"
 #include "gpu/view.h"
 #include "ground/ground.h"
 #include "rain/rain.h"
@@ -303,16 +304,32 @@ static virga_result step_alone(virga_scene *scene, virga_effect *effect, VkComma
     return effect->type->step(effect, cmd, &step);
 }
 
+/* The rain comes first: all others read what it writes. Then what is on the ground and what is on panes is recorded in
+ * lanes of their own. */
 static virga_result step_all(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
         const scene_effect *effect = &scene->effects[i];
-        const virga_result stepped = effect->kind->step ? effect->kind->step(scene, effect->index, cmd, frame)
-                                                        : step_alone(scene, effect->effect, cmd, frame);
+        const bool on_pane = effect->kind->lane == SCENE_ON_PANES, first = effect->kind->lane == SCENE_FIRST;
+        const uint32_t lane = on_pane ? scene_lane_of_pane(scene, effect->index, frame) : 0;
+        const VkCommandBuffer to = first ? cmd : virga_lane(scene->context, cmd, lane);
+        const virga_result stepped = effect->kind->step ? effect->kind->step(scene, effect->index, to, frame)
+                                                        : step_alone(scene, effect->effect, to, frame);
         result = scene_merge_results(result, stepped);
     }
+    virga_lanes_join(scene->context, cmd);
     return result;
+}
+
+enum { LANE_RAIN, LANE_GROUND, LANE_PANES }; /* to prepare. Each effect writes what it draws, and reads its own */
+
+static VkCommandBuffer lane_to_prepare(const virga_scene *scene, VkCommandBuffer cmd, scene_lane of)
+{
+    return virga_lane(scene->context, cmd,
+                      of == SCENE_FIRST      ? LANE_RAIN
+                      : of == SCENE_ON_PANES ? LANE_PANES
+                                             : LANE_GROUND);
 }
 
 /* Prepares the effects at the time of the rain. Panes are prepared separately, see virga_scene_prepare_panes. */
@@ -323,9 +340,10 @@ static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const v
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
         const uint32_t at = scene->draw_order[i];
         virga_effect *effect = scene->effects[at].effect;
-        if (effect->type->prepare)
-            result =
-                scene_merge_results(result, effect->type->prepare(effect, cmd, view, time_s, &scene->views[index][at]));
+        if (!effect->type->prepare)
+            continue;
+        const VkCommandBuffer to = lane_to_prepare(scene, cmd, scene->effects[at].kind->lane);
+        result = scene_merge_results(result, effect->type->prepare(effect, to, view, time_s, &scene->views[index][at]));
     }
     return result;
 }
@@ -337,9 +355,10 @@ static virga_result prepare_view(virga_scene *scene, VkCommandBuffer cmd, const 
     if (!(view->viewport[2] >= 1 && view->viewport[3] >= 1))
         return VIRGA_OK;
     virga_result result = prepare_all(scene, cmd, view, index);
-    if (result >= 0 && !frame->defer_panes)
-        result = scene_merge_results(result, virga_scene_prepare_panes_view(scene, cmd, index, view, frame->panes));
-    return result;
+    if (result < 0 || frame->defer_panes)
+        return result;
+    const VkCommandBuffer to = lane_to_prepare(scene, cmd, SCENE_ON_PANES);
+    return scene_merge_results(result, virga_scene_prepare_panes_view(scene, to, index, view, frame->panes));
 }
 
 /* Each effect steps once in a frame. A second call is refused as a whole. Logged once for a frame. */
@@ -378,6 +397,7 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     virga_result result = scene_merge_results(checked, step_all(scene, cmd, frame));
     for (uint32_t i = 0; i < scene->view_count && result >= 0; i++)
         result = scene_merge_results(result, prepare_view(scene, cmd, frame, &views[i], i));
+    virga_lanes_join(scene->context, cmd);
     return result;
 }
 

@@ -16,6 +16,7 @@
 #include "glass/glass.h"
 #include "gpu/context.h"
 #include "gpu/errors.h"
+#include "gpu/lanes.h"
 #include "ground/ground.h"
 #include "rain/rain.h"
 #include "splash/splash.h"
@@ -296,6 +297,13 @@ static bool catches(const virga_scene *scene, uint32_t index, const virga_scene_
     return index < scene->catching_panes && !(frame->panes[index].shelter > 0);
 }
 
+uint32_t scene_lane_of_pane(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame)
+{
+    if (!catches(scene, index, frame))
+        return 1 + index % (VIRGA_MAX_LANES - 1);
+    return has_handed(scene) ? 0 : 1;
+}
+
 /* Its rectangle, as the rain takes it. */
 static virga_rain_pane rectangle_of(const virga_scene *scene, uint32_t index, const virga_scene_pane *pane)
 {
@@ -520,12 +528,13 @@ enum { DRAW_SPLASH, DRAW_GROUND, DRAW_WATER, DRAW_RAIN, DRAW_PANES };
 
 /* Water is the first, as it is the one whose step has arguments of the host: if they are wrong nothing is recorded. */
 const scene_kind scene_kinds[] = {
-    {&water_type, DRAW_WATER, count_water, DEF(water), .step = step_water},
-    {&rain_type, DRAW_RAIN, .def = DEF(rain), .step = step_rain},
+    {&water_type, DRAW_WATER, count_water, DEF(water), .step = step_water, .lane = SCENE_FIRST},
+    {&rain_type, DRAW_RAIN, .def = DEF(rain), .step = step_rain, .lane = SCENE_FIRST},
     {&ground_type, DRAW_GROUND, count_ground, DEF(ground), share_ground, .check_frame = check_ground,
      .step = step_ground},
     {&splash_type, DRAW_SPLASH, count_splash, DEF(splash), share_splash, .step = step_splash},
-    {&glass_type, DRAW_PANES, count_panes, .share = share_pane, .check_frame = check_pane, .step = step_pane},
+    {&glass_type, DRAW_PANES, count_panes, .share = share_pane, .check_frame = check_pane, .step = step_pane,
+     .lane = SCENE_ON_PANES},
 #ifdef SCENE_EXTRA_KINDS /* an effect of the tests */
     SCENE_EXTRA_KINDS,
 #endif

@@ -18,6 +18,13 @@
 
 /* A kind of effect in a scene. The table has one row for each, in the order in which a frame steps them. For a NULL
  * member the default of the effect's type is used. */
+/* Which effects have nothing to do with each other in a frame, once the rain has fallen: see gpu/lanes.h. */
+typedef enum scene_lane {
+    SCENE_ON_GROUND, /* what rain does on the ground, and effects that exchange nothing with others */
+    SCENE_ON_PANES,
+    SCENE_FIRST, /* others read what it writes. First in the table */
+} scene_lane;
+
 typedef struct scene_kind {
     const virga_effect_type *type;
     uint32_t draw_order; /* effects with lower numbers are attached, prepared and drawn first */
@@ -33,11 +40,16 @@ typedef struct scene_kind {
     virga_result (*check_frame)(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame);
     /* Records the effect's step, with events from earlier effects. NULL: the step of its type, without events. */
     virga_result (*step)(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame);
+    scene_lane lane;
 } scene_kind;
 
 /* Defined in scene_effects.c. */
 extern const scene_kind scene_kinds[];
 extern const uint32_t scene_kind_count;
+
+/* The lane of a pane's step. In lane 0 are the ground and the splashes, whose spray it may catch. Panes that catch the
+ * rain's drops are all in one, as the rain finds them one pane after the other. */
+uint32_t scene_lane_of_pane(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame);
 
 /* An effect of a scene. */
 typedef struct scene_effect {

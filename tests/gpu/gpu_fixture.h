@@ -68,6 +68,7 @@ static inline virga_context_def gpu_context_def(gpu_fixture *f)
     def.log = gpu_log;
     def.log_user = f;
     def.log_repeats = true;
+    def.variants = effect_fixture_wanted_variants();
     return def;
 }
 

@@ -14,6 +14,7 @@ typedef struct state_run {
     host_buffer vertices, indices, blob;
     bool walk; /* the ground's window follows */
     bool in_turns;
+    bool sheltered; /* panes get a part of the rain, and catch none of its drops */
 } state_run;
 
 static inline void set_weather(state_run *run)
@@ -74,6 +75,8 @@ static inline virga_result try_record(state_run *run, VkCommandBuffer cmd, uint3
                                      .view = &view,
                                      .panes = panes};
     small_panes_lay(panes);
+    for (int i = 0; i < SMALL_PANES; i++)
+        panes[i].shelter = run->sheltered ? 0.2f : panes[i].shelter;
     view.position_m[1] = view.open_position_m[1] = 1.7;
     view.position_m[2] = view.open_position_m[2] = -ahead;
     virga_result result = virga_scene_record(run->scene, cmd, &frame);

@@ -115,6 +115,7 @@ static bool create_context(drive *d)
     def.pipeline_cache = compiled;
     def.pipeline_cache_size = size;
     def.log = print_log;
+    def.timings = d->chosen.out; /* they are printed then. Without them effects share barriers on GPUs */
     def.wide_lines = d->device.wide_lines;
     const virga_result result = virga_context_create(&def, &d->context);
     free(compiled); /* copied */

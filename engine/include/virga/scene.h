@@ -205,7 +205,8 @@ typedef struct virga_scene_frame {
 VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
 
 /* Records water, occlusion, rain, ground, splash, panes and prepare, in that order. Panes get rate, drop sizes, air
- * density and wind of the rain.
+ * density and wind of the rain. On GPUs, without virga_context_def.timings, passes of the ground, of splashes and of
+ * panes are recorded side by side after the rain, and share barriers. The results are the same bits.
  *
  * VIRGA_NOT_READY, and nothing is recorded or stepped, until virga_scene_ready returns VIRGA_OK. Also for a view of no
  * pixels; then all else is done. Otherwise it returns the first error of the effects, else their last remark.
