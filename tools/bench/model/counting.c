@@ -43,6 +43,7 @@ static struct {
     counted_pass *bound[2]; /* graphics, compute */
     VkDescriptorSet bound_sets[2];
     bool behind_barrier, all;
+    uint32_t barriers; /* so far */
     double moved_bytes, moved_so_far;
 } counting;
 
@@ -406,6 +407,8 @@ static void note_call(VkPipelineBindPoint point)
         return;
     if (!pass->calls_so_far)
         forget_sizes(pass);
+    pass->times_so_far += !pass->calls_so_far || pass->last_barrier != counting.barriers;
+    pass->last_barrier = counting.barriers;
     pass->calls_so_far++;
     pass->waits_so_far += counting.behind_barrier;
     counting.behind_barrier = false;
@@ -437,6 +440,7 @@ static VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer cmd, VkPipelineStageFl
                                           uint32_t image_count, const VkImageMemoryBarrier *images)
 {
     counting.behind_barrier = true;
+    counting.barriers++;
     DRIVER(CmdPipelineBarrier)
     (cmd, before, after, flags, count, barriers, buffer_count, buffers, image_count, images);
 }
@@ -559,8 +563,9 @@ void counting_end_frame(void)
         if (counted) {
             pass->calls = pass->calls_so_far;
             pass->waits = pass->waits_so_far;
+            pass->times = pass->times_so_far;
         }
-        pass->calls_so_far = pass->waits_so_far = 0;
+        pass->calls_so_far = pass->waits_so_far = pass->times_so_far = 0;
         pass->counts = false;
         for (uint32_t k = 0; counted && k < pass->stage_count; k++)
             keep_numbers(&pass->stages[k]);

@@ -25,7 +25,10 @@ typedef struct counted_pass {
     uint32_t stage_count;                /* 1: compute; 2: vertex and fragment */
     uint32_t calls;                      /* dispatches or draws in that frame; 0: none since counting_forget */
     uint32_t waits;                      /* of these, behind a barrier */
+    uint32_t times;                      /* of calls, those without a barrier between them counted once */
     uint32_t calls_so_far, waits_so_far; /* of a frame that has not ended */
+    uint32_t times_so_far;
+    uint32_t last_barrier; /* number of barriers before the last call */
     uint32_t frames;                     /* that used it since counting_forget */
     bool counts;                         /* in this frame */
     bool ended;                          /* its pipeline was destroyed */

@@ -113,9 +113,10 @@ static void add_stage(const model_card *card, const counted_pass *pass, const co
     if (work.lanes <= 0)
         return;
     const bool is_fragment = stage == &pass->stages[1];
-    const double calls = pass->calls, waves_of_call = work.waves / calls;
-    const double simds = fmin(card->simds, fmax(1, waves_of_call));
-    const double rounds = fmax(1, waves_of_call / (card->simds * card->waves_per_simd));
+    /* Calls without a barrier between them run at the same time. */
+    const double calls = pass->calls, waves_at_once = work.waves / pass->times;
+    const double simds = fmin(card->simds, fmax(1, waves_at_once));
+    const double rounds = fmax(1, waves_at_once / (card->simds * card->waves_per_simd));
     double memory = 0, cache = 0;
     for (uint32_t k = 0; k < stage->costs.resource_count; k++) {
         cache += work.asked[k];
@@ -134,7 +135,7 @@ static void add_stage(const model_card *card, const counted_pass *pass, const co
     sum->seconds[MODEL_ARITHMETIC] += work.issues / (simds * card->clock_hz);
     sum->seconds[MODEL_MEMORY] += memory / card->memory_bytes_s;
     sum->seconds[MODEL_CACHE] += cache / card->cache_bytes_s;
-    sum->seconds[MODEL_LATENCY] += calls * rounds * work.chain * card->latency_s;
+    sum->seconds[MODEL_LATENCY] += pass->times * rounds * work.chain * card->latency_s;
 }
 
 static void finish(const model_card *card, model_pass *pass)
