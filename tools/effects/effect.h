@@ -261,6 +261,7 @@ typedef struct tool_effect {
     uint32_t layer_count;
     bool after_plate;  /* it is prepared after the opaque scene is drawn, and may read its color and depth then */
     bool shows_behind; /* it is prepared after all layers of a lower order are drawn, and view.color contains them */
+    bool in_air;       /* (shows_behind) that is as sharp as it is; else a lens has blurred it before */
     /* Updates what changes in the opaque scene. */
     bool (*before_plate)(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size);
     bool (*prepare)(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size);

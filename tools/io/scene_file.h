@@ -106,7 +106,9 @@ typedef struct scene_camera {
     uint32_t focus_key_count;
     uint32_t blades;
     double blade_roundness, blade_rotation_deg, cats_eye, breathing;
-    uint32_t blur;          /* scene_blur */
+    uint32_t blur; /* scene_blur */
+    bool bloom;    /* wet air spreads light */
+    double bloom_visibility_m, bloom_drop_um;
     scene_camera_key *keys; /* by rising time; none: a path of poses, or of a speed */
     uint32_t key_count;
     scene_poses poses;

@@ -98,6 +98,25 @@ struct host_skylight_draw_gpu { /* push constants */
     HOST_VEC4 cutout; /* alpha of the material, cutoff */
 };
 
+/* ---- bloom of wet air --------------------------------------------------------------------------------------- */
+
+#define HOST_BLOOM_LEVELS 9 /* at most: the widest is a Gaussian of 362 pixels */
+
+struct host_bloom_gpu { /* push constants */
+    /* x and y: elements 10 and 14 of clip_from_view; z: metres of such air before what has no depth; w: optical depth
+     * of a metre, of light that is diffracted */
+    HOST_VEC4 depth;
+    HOST_VEC4 ray; /* x and y: 1 / elements 0 and 5 of clip_from_view; z and w: its elements 8 and 9 */
+    /* rgb: weight of this level, in the draw of what is kept, for light that is diffracted once; w: what makes `more`
+     * whole */
+    HOST_VEC4 single;
+    HOST_VEC4 more;  /* rgb: what is added to it for light that is diffracted more often */
+    HOST_UINT width; /* texels of what is written */
+    HOST_UINT height;
+    HOST_UINT columns; /* texels of what is read; 0: nothing is */
+    HOST_UINT rows;
+};
+
 /* ---- shade where things stand on the ground ----------------------------------------------------------------- */
 
 #define HOST_CONTACT_FAR 4.0 /* metres above the ground: what is higher is not told apart */

@@ -47,29 +47,6 @@ static bool draw_colors(const shot *s, VkCommandBuffer cmd, uint32_t count, cons
     return drawn;
 }
 
-/* Draws the plate with the lower layers, as input for an effect that shows what is behind it. These layers are drawn a
- * second time for it. */
-static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const tool_moment *at, char *error,
-                          size_t error_size)
-{
-    const tool_effect *effect = effect_of(&s->layers[index]);
-    virga_view view = *at->jittered;
-    tool_moment behind = *at;
-    if (!effect->shows_behind || !is_first(s, index))
-        return true;
-    if (shot_lens_has_behind(s, index)) {
-        if (!shot_record_behind(s, cmd, at, &view.color, error, error_size))
-            return false;
-    } else {
-        host_target_begin_behind(&s->target, cmd);
-        if (!draw_colors(s, cmd, index, s->layer_target, error, error_size))
-            return false;
-        view.color = host_target_behind(&s->target);
-    }
-    behind.jittered = &view;
-    return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
-}
-
 /* ---- sub-frames that share */
 
 /* So many after each other share the shading of the plate. Through a lens each sees its things elsewhere, and where the
@@ -97,6 +74,38 @@ static bool has_turn(const shot *s, const shot_layer *layer)
     if (!layer->layer->is_smooth || s->lens || shot_looks_through_lens(s))
         return true;
     return place % share == place / share % share;
+}
+
+/* Whether a layer is seen in a sub-frame, or through another that shows what is behind it. */
+static bool is_needed(const shot *s, uint32_t index)
+{
+    bool seen = has_turn(s, &s->layers[index]);
+    for (uint32_t i = index + 1; i < s->layer_count; i++)
+        seen = seen || effect_of(&s->layers[i])->shows_behind;
+    return seen;
+}
+
+/* Draws the plate with the lower layers, as input for an effect that shows what is behind it. These layers are drawn a
+ * second time for it. */
+static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const tool_moment *at, char *error,
+                          size_t error_size)
+{
+    const tool_effect *effect = effect_of(&s->layers[index]);
+    virga_view view = *at->jittered;
+    tool_moment behind = *at;
+    if (!effect->shows_behind || !is_first(s, index) || !is_needed(s, index))
+        return true;
+    if (shot_lens_has_behind(s, index)) {
+        if (!shot_record_behind(s, cmd, at, &view.color, error, error_size))
+            return false;
+    } else {
+        host_target_begin_behind(&s->target, cmd);
+        if (!draw_colors(s, cmd, index, s->layer_target, error, error_size))
+            return false;
+        view.color = host_target_behind(&s->target);
+    }
+    behind.jittered = &view;
+    return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
 }
 
 /* Each into a picture of its own. */

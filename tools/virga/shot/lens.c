@@ -46,12 +46,14 @@ static bool is_first(const shot *s, uint32_t index)
     return true;
 }
 
-/* The first layer of the last effect that shows what is behind it; 0: there is none, or nothing is behind it. */
+/* The first layer of the last effect that shows what is behind it out of focus; 0: there is none, or nothing is behind
+ * it. */
 static uint32_t find_front(const shot *s)
 {
     uint32_t first = 0;
     for (uint32_t i = 1; i < s->layer_count; i++)
-        if (tool_effects[s->layers[i].effect]->shows_behind && is_first(s, i))
+        if (tool_effects[s->layers[i].effect]->shows_behind && !tool_effects[s->layers[i].effect]->in_air &&
+            is_first(s, i))
             first = i;
     return first;
 }
