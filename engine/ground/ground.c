@@ -40,6 +40,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, start_wetness, 0, 1, 0),
     SETTING(FLOAT, start_water_mm, 0, 50, 0),
     SETTING(U32, contact_droplets, 0, 64, 12),
+    SETTING(FLOAT, stream_waves, 0, 4, 1, .look = true),
     SETTING(BOOL, measure, false, true, true, .look = true),
 };
 
@@ -84,6 +85,7 @@ enum {
     COUNT_FAR_HEIGHT,
     COUNT_TICKS,
     COUNT_VIEWS,
+    COUNT_STREAMS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -101,6 +103,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_WIDTH] = far_cells > VIRGA_GROUND_MATERIALS ? far_cells : VIRGA_GROUND_MATERIALS;
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
     counts[COUNT_VIEWS] = VIRGA_MAX_VIEWS;
+    const VkDeviceSize stream_side = (VkDeviceSize)ground_streams_blocks(def) * VIRGA_STREAM_BLOCK;
+    counts[COUNT_STREAMS] = stream_side * stream_side;
     counts[COUNT_TICKS] =
         def->max_ticks_per_step + 4; /* where the window moves, for the far map, and two for simulated water */
 }
@@ -125,8 +129,8 @@ static const virga_effect_buffer buffers[] = {
      COUNT_SPAWNS, FILL, .word = offsetof(virga_spawns_gpu, near_m) / sizeof(uint32_t), .word_value = FIRST_NEAR_M},
     {"ground.no_rules", AT(no_rules), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_TRANSFER_DST_BIT, DEVICE,
      sizeof(virga_splash_rules_gpu), .first = FILL, .scratch = true},
-    {"ground.rings", AT(rings), VIRGA_USE_STORAGE, DEVICE,
-     sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu), .first = FILL},
+    {"ground.rings", AT(rings), VIRGA_USE_INDIRECT, DEVICE, GROUND_STREAMS_OFFSET + sizeof(virga_streams_gpu),
+     sizeof(virga_stream_gpu), COUNT_STREAMS, FILL},
     {"ground.far_floors", AT(far.floors), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_far_floor_gpu), COUNT_FAR_CELLS,
      .keeps = true},
 };
@@ -163,39 +167,41 @@ enum {
     BIND_FAR_MAP,
     BIND_WATER,
     BIND_EXCHANGE,
+    BIND_STREAM_TILE,
 };
 
 /* The bindings as the files in shaders/ground declare them. */
 static const virga_binding_kind bindings[] = {
     RING(VIRGA_ALL_STAGES, tick_ring, virga_ground_tick_gpu),                           /* 0 */
     {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring), sizeof(ground_lists)}, /* 1 tile lists */
-    [BIND_IMPACTS] = {STORAGE, COMPUTE},     /* 2 impacts or returned droplets */
-    BUFFER(floors),                          /* 3 */
-    BUFFER(cells),                           /* 4 */
-    BUFFER(stirs),                           /* 5 */
-    BUFFER(arrivals),                        /* 6 */
-    BUFFER(spots),                           /* 7 */
-    BUFFER(cached_cells),                    /* 8 */
-    BUFFER(counts),                          /* 9 */
-    BUFFER(landings),                        /* 10 */
-    [BIND_DEPTH] = {SAMPLED, COMPUTE},       /* 11 */
-    [BIND_SURFACE] = {SAMPLED, COMPUTE},     /* 12 */
-    [BIND_WET_MAP] = {IMAGE, COMPUTE},       /* 13 */
-    [BIND_SPOT_MAP] = {IMAGE, COMPUTE},      /* 14 */
-    BUFFER_IN(COMPUTE | VERTEX, rings),      /* 15 */
-    [BIND_WAVES] = {SAMPLED, FRAGMENT},      /* 16 */
-    [BIND_MATERIALS] = {SAMPLED, COMPUTE},   /* 17 */
-    [BIND_RULES] = {UNIFORM, COMPUTE},       /* 18 rules of the splashes */
-    BUFFER(spawns),                          /* 19 */
-    BUFFER(swings),                          /* 20 */
-    TEXEL_BUFFER(floors),                    /* 21 */
-    TEXEL_BUFFER(cells),                     /* 22 */
-    BUFFER(far.floors),                      /* 23 */
-    [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},   /* 24 */
-    [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE}, /* 25 */
-    [BIND_FAR_MAP] = {IMAGE, COMPUTE},       /* 26 */
-    [BIND_WATER] = {STORAGE, COMPUTE},       /* 27 particles of simulated water, or droplets that are thrown */
-    [BIND_EXCHANGE] = {STORAGE, COMPUTE},    /* 28 water that becomes particles, and comes back */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},      /* 2 impacts or returned droplets */
+    BUFFER(floors),                           /* 3 */
+    BUFFER(cells),                            /* 4 */
+    BUFFER(stirs),                            /* 5 */
+    BUFFER(arrivals),                         /* 6 */
+    BUFFER(spots),                            /* 7 */
+    BUFFER(cached_cells),                     /* 8 */
+    BUFFER(counts),                           /* 9 */
+    BUFFER(landings),                         /* 10 */
+    [BIND_DEPTH] = {SAMPLED, COMPUTE},        /* 11 */
+    [BIND_SURFACE] = {SAMPLED, COMPUTE},      /* 12 */
+    [BIND_WET_MAP] = {IMAGE, COMPUTE},        /* 13 */
+    [BIND_SPOT_MAP] = {IMAGE, COMPUTE},       /* 14 */
+    BUFFER_IN(COMPUTE | VERTEX, rings),       /* 15 */
+    [BIND_WAVES] = {SAMPLED, FRAGMENT},       /* 16 */
+    [BIND_MATERIALS] = {SAMPLED, COMPUTE},    /* 17 */
+    [BIND_RULES] = {UNIFORM, COMPUTE},        /* 18 rules of the splashes */
+    BUFFER(spawns),                           /* 19 */
+    BUFFER(swings),                           /* 20 */
+    TEXEL_BUFFER(floors),                     /* 21 */
+    TEXEL_BUFFER(cells),                      /* 22 */
+    BUFFER(far.floors),                       /* 23 */
+    [BIND_FAR_DEPTH] = {SAMPLED, COMPUTE},    /* 24 */
+    [BIND_FAR_SURFACE] = {SAMPLED, COMPUTE},  /* 25 */
+    [BIND_FAR_MAP] = {IMAGE, COMPUTE},        /* 26 */
+    [BIND_WATER] = {STORAGE, COMPUTE},        /* 27 particles of simulated water, or droplets that are thrown */
+    [BIND_EXCHANGE] = {STORAGE, COMPUTE},     /* 28 water that becomes particles, and comes back */
+    [BIND_STREAM_TILE] = {SAMPLED, FRAGMENT}, /* 29 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -219,6 +225,8 @@ static const virga_effect_pass passes[] = {
     PASS(soak),
     PASS(flow),
     PASS(ring),
+    PASS(stream),
+    PASS(stream_list),
     PASS(measure),
     {"ground.measure_cached", AT(measure_cached), VIRGA_SPIRV_ROW(ground_measure_comp), .constant = VK_TRUE},
     PASS(map),
@@ -248,7 +256,7 @@ static VkDeviceSize extra_bytes(const void *given)
 {
     const virga_ground_def *def = given;
     return virga_mesh_map_bytes(def->cells, 1) + virga_mesh_map_bytes(def->far_cells, 2) +
-           ground_ripples_bytes(def->ripple_texels);
+           ground_ripples_bytes(def->ripple_texels) + ground_streams_bytes();
 }
 
 static virga_result init(void *object)
@@ -278,6 +286,7 @@ static virga_result create(void *object)
                               &ground->far.height_map));
     TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->shared, group,
                               &ground->ripples));
+    TRY(ground_streams_create(context, ground->ripples.map, ground->bindings->shared, group, &ground->streams));
 error:
     return result;
 }
@@ -289,6 +298,7 @@ static void destroy(void *object)
     virga_mesh_map_retire(context, &ground->height_map);
     virga_mesh_map_retire(context, &ground->far.height_map);
     ground_ripples_retire(context, &ground->ripples);
+    ground_streams_retire(context, &ground->streams);
     virga_free(&context->heap, ground->window.cache);
     virga_free(&context->heap, ground->window.cache_before);
 }
@@ -414,6 +424,8 @@ static void write_set(virga_ground *ground, uint32_t source)
     bound[BIND_WET_MAP] = written(ground->wet_map);
     bound[BIND_SPOT_MAP] = written(ground->spot_map);
     bound[BIND_WAVES] = sampled(ground, ground->ripples.waves);
+    bound[BIND_STREAM_TILE] = sampled(ground, ground->streams.tile);
+    bound[BIND_STREAM_TILE].sampler = context->linear;
     bound[BIND_MATERIALS] = virga_bound_or_blank(&info->materials.image, ground->blank_materials, context->nearest);
     bound[BIND_RULES] = info->splash_rules ? (virga_bound){.buffer = info->splash_rules,
                                                            .offset = info->splash_rules_offset,

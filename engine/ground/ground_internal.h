@@ -8,6 +8,8 @@
  *   ground_far.c      the map of distant ground
  *   ring_table.c      waves on shallow water
  *   ground_rings.c    the map of rings on puddles
+ *   stream_table.c    a picture of waves, of which those of running water are made
+ *   ground_streams.c  waves of running water, in the same map
  *   ground_step.c     ticks: the passes in their order
  *   ground_state.c    checks a saved state
  *   ground_wet.c      the draw of wet ground over a host's picture */
@@ -122,8 +124,31 @@ VkDeviceSize ground_ripples_bytes(uint32_t texels);
 void ground_ripples_retire(virga_context *context, ground_ripples *ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
 
-/* Draws all active rings. The ground's set must be bound for graphics. Leaves the map in GENERAL. */
-void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples);
+/* Draws all active rings and running water. The ground's set must be bound for graphics. Leaves the map in GENERAL. */
+void ground_ripples_draw(const virga_ground *ground, VkCommandBuffer cmd);
+
+/* ---- ground_streams.c */
+typedef struct ground_streams {
+    virga_image_2d *tile;
+    virga_buffer *upload; /* of the tile; NULL once it is */
+    virga_pipeline *draw;
+} ground_streams;
+
+/* Where the head of running water is in the buffer of rings: a stage sees no more buffers than there are. */
+#define GROUND_STREAMS_OFFSET (sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu))
+
+/* Blocks of cells along the side of the area around the ripple map. */
+uint32_t ground_streams_blocks(const virga_ground_def *def);
+VkDeviceSize ground_streams_bytes(void);
+virga_result ground_streams_create(virga_context *context, const virga_offscreen *map, struct virga_layout *layout,
+                                   virga_pipeline_group *group, ground_streams *streams);
+void ground_streams_retire(virga_context *context, ground_streams *streams);
+void ground_streams_upload(virga_context *context, VkCommandBuffer cmd, ground_streams *streams);
+void ground_streams_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
+/* Finds running water, after the ticks of a step. The ground's set must be bound. */
+void ground_streams_step(virga_ground *ground, VkCommandBuffer cmd);
+/* Draws its waves, in the draw of rings. */
+void ground_streams_draw(const virga_ground *ground, VkCommandBuffer cmd);
 
 /* ---- ground_far.c */
 
@@ -211,13 +236,15 @@ struct virga_ground {
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *height_map;
     ground_ripples ripples;
+    ground_streams streams;
     ground_far far;
     ground_standing standing[GROUND_STANDING];
     double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
     virga_pipeline *tile_load, *tile_discard, *touch, *contact, *contact_soak, *receive, *receive_soak, *take,
-        *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_cached, *map, *ring;
+        *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_cached, *map, *ring, *stream,
+        *stream_list;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, one for each source of water */

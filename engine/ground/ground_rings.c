@@ -123,10 +123,13 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
     virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, filled, ready);
 }
 
-void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples)
+void ground_ripples_draw(const virga_ground *ground, VkCommandBuffer cmd)
 {
+    virga_context *context = ground->base.context;
+    const ground_ripples *ripples = &ground->ripples;
     virga_offscreen_begin(context, cmd, ripples->map, 0);
     if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline))
         context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
+    ground_streams_draw(ground, cmd);
     virga_offscreen_end(context, cmd);
 }

@@ -186,6 +186,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     fill_water(ground, out);
     fill_exchange(ground, out);
     ground_contacts_fill(ground, out);
+    ground_streams_fill(ground, out);
     ground_fill_soils(&ground->settings, cell, out->soils);
     ground_standing_fill(ground->standing, out->soils, out->standing);
     ground_far_fill(ground, out);
@@ -511,7 +512,7 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.rings");
     virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
     virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings, ground->sets[GROUND_DROPS], 2, offsets);
-    ground_ripples_draw(context, cmd, &ground->ripples);
+    ground_ripples_draw(ground, cmd);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -566,6 +567,10 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     if (ground->ripples.upload) {
         ground_ripples_upload(context, cmd, &ground->ripples);
         virga_effect_uploaded(&ground->base, &ground->ripples.upload);
+    }
+    if (ground->streams.upload) {
+        ground_streams_upload(context, cmd, &ground->streams);
+        virga_effect_uploaded(&ground->base, &ground->streams.upload);
     }
     transfer_barrier(ground, cmd);
 }
@@ -664,6 +669,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         run_tick(ground, cmd, info->first_tick + ground->tick_in_step);
     if (info->ticks)
         ground->last_tick = info->first_tick + info->ticks - 1;
+    ground_streams_step(ground, cmd);
     write_ripples(ground, cmd);
     if (ground->settings.measure)
         measure(ground, cmd);

@@ -15,6 +15,8 @@
 #include "cells.glsl"
 #include "pieces.glsl"
 #include "rings.glsl"
+#include "flow_average.glsl"
+#include "speed.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 10) readonly buffer Landings { virga_landing_gpu landings[]; };
@@ -149,6 +151,10 @@ void start_ring(uint ring_index, uint index, uint i, float chance)
     ring.width = crater.width;
     ring.depth_m = water_m;
     ring.id = impact.id;
+    float running;
+    uint material;
+    const vec2 drift = speed_at(piece.cell, running, material) / MEAN_SHARE;
+    ring.drift = float[2](drift.x, drift.y);
     rings[ring_index % VIRGA_MAX_RINGS] = ring;
 }
 

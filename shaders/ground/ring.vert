@@ -39,8 +39,8 @@ void main()
         vec2(ivec2(ring.cell[0], ring.cell[1]) - ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) +
         vec2(ring.in_cell[0], ring.in_cell[1]);
     offset_m = side * radius;
-    const vec2 at =
-        (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
+    const vec2 drifted_m = cell * tick.cell_m + vec2(ring.drift[0], ring.drift[1]) * max(age, 0.0);
+    const vec2 at = (drifted_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     const float time = clamp(age / life_s, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
     // The table begins with the crater, which opens while the crown around it rises. A crater that is there at once
     // would pop up in pictures that are a few milliseconds apart.

@@ -10,6 +10,8 @@ layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;
     virga_ring_gpu rings[VIRGA_MAX_RINGS];
+    virga_streams_gpu streams_head; // behind them, running water (streams.glsl)
+    virga_stream_gpu streams[];
 };
 
 #define MIN_WATER_M 0.0008 // min depth of water that has waves

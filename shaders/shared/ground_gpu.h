@@ -19,6 +19,8 @@ typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
 typedef struct virga_ground_count_gpu virga_ground_count_gpu;
 typedef struct virga_ring_gpu virga_ring_gpu;
 typedef struct virga_rings_gpu virga_rings_gpu;
+typedef struct virga_stream_gpu virga_stream_gpu;
+typedef struct virga_streams_gpu virga_streams_gpu;
 #endif
 
 #define VIRGA_GROUND_GROUP      256
@@ -29,6 +31,21 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 #define VIRGA_GROUND_CONTACTS  64 /* wheels and feet in a step */
 #define VIRGA_GROUND_LANES     64 /* invocations of the workgroup that moves their water */
 #define VIRGA_GROUND_FAR_CELL  8  /* window cells along the side of a cell of the far map: 1 << FAR_SHIFT */
+
+/* Waves on water that runs, see shaders/ground/stream.glsl. */
+#define VIRGA_STREAM_OCTAVES   3                   /* wavelengths, each twice the one before */
+#define VIRGA_STREAM_WAVE_LIST 0.016, 0.032, 0.064 /* m */
+/* cosine and sine of the angle by which the picture of each is turned: 0.5, 1.6 and 2.9 rad */
+#define VIRGA_STREAM_TURN_0     0.877583, 0.479426
+#define VIRGA_STREAM_TURN_1     -0.0292, 0.999574
+#define VIRGA_STREAM_TURN_2     -0.970958, 0.239249
+#define VIRGA_STREAM_LAYERS     2     /* of waves that are carried along and renewed by turns */
+#define VIRGA_STREAM_TILE       128   /* texels along the side of a picture of waves */
+#define VIRGA_STREAM_TILE_WAVES 8.3   /* wavelengths along that side */
+#define VIRGA_STREAM_TILE_SLOPE 160.0 /* largest slope in it, where a side is as long as a wave is high: 127 of 128 */
+#define VIRGA_STREAM_BLOCK      4     /* cells along the side of the blocks in which they are drawn */
+#define VIRGA_STREAM_MAX_SIDE   512   /* cells along the side of the area with such waves */
+#define VIRGA_STREAM_BLOCKS     16384 /* MAX_SIDE / BLOCK, squared */
 
 /* Water that arrives in a tick. Zero between ticks. */
 struct virga_arrivals_gpu {
@@ -132,6 +149,18 @@ struct virga_ground_tick_gpu {
     int region_low[2];        /* cells of the world that give it, low corner */
     int region_high[2];       /* behind the last ones; not above region_low: none does */
     /* What rolls and walks. */
+    /* Water that runs. */
+    int stream_low[2];    /* cell of the world, low corner of the area with its waves; a multiple of BLOCK */
+    uint stream_blocks;   /* blocks along its side */
+    uint stream_period;   /* ticks for which a layer of waves lasts, even */
+    float stream_waves;   /* how high they are drawn; 1: as they are, 0: not at all */
+    float stream_texel_m; /* of the ripple map */
+    /* where the window's low corner lies in the picture of waves of each octave, in [0; 1) */
+    float stream_corner[2 * VIRGA_STREAM_OCTAVES];
+    float stream_age_s[VIRGA_STREAM_LAYERS];  /* since each layer of waves began */
+    float stream_weight[VIRGA_STREAM_LAYERS]; /* of each; the squares add up to 1 */
+    /* where a layer began in the picture of each octave, in [0; 1) */
+    float stream_place[2 * VIRGA_STREAM_LAYERS * VIRGA_STREAM_OCTAVES];
     uint contact_count;
     uint contact_droplets;  /* that may fly out of a cell; 0: none */
     float handed_offset[3]; /* from the origin of droplets to the window's low corner at the height base_m */
@@ -141,7 +170,7 @@ struct virga_ground_tick_gpu {
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
 
-/* A ring wave on a puddle, 40 bytes. */
+/* A ring wave on a puddle, 48 bytes. */
 struct virga_ring_gpu {
     int cell[2];      /* cell of the world where the drop fell */
     float in_cell[2]; /* [0; 1), position in that cell */
@@ -149,15 +178,36 @@ struct virga_ring_gpu {
     float share;      /* fraction of that tick that had passed; 1 or more: the ring starts later */
     /* m, depth of the crater; larger if the ring represents several. 0: this entry was never used. */
     float crater_m;
-    float depth_m; /* m, of the water */
-    uint width;    /* index of the crater's width in VIRGA_RING_WIDTH_LIST */
-    uint id;       /* of the drop */
+    float depth_m;  /* m, of the water */
+    uint width;     /* index of the crater's width in VIRGA_RING_WIDTH_LIST */
+    uint id;        /* of the drop */
+    float drift[2]; /* m/s, along x and z, of the water's surface: it carries the ring along */
 };
 
 /* Head of the list of ring waves, which is a ring buffer. */
 struct virga_rings_gpu {
     uint total; /* rings ever added; the newest is at index (total - 1) modulo VIRGA_MAX_RINGS */
     uint pad[3];
+};
+
+/* Running water of a cell, and the waves on it. */
+struct virga_stream_gpu {
+    int cell[2];   /* of the world; another cell: what is here is of the one that was here before */
+    float flow[2]; /* m/s, along x and z, of the surface, as a mean over time */
+    float depth_m; /* of what runs, as a mean over time */
+    float moved_m[2 * VIRGA_STREAM_LAYERS]; /* how far it has run since each layer of waves began */
+    float standing_m[VIRGA_STREAM_OCTAVES]; /* standard deviation of the surface's height: of waves that stand still */
+    float height_m[VIRGA_STREAM_OCTAVES];   /* and of those that the water carries along */
+    float turn_rad_s[VIRGA_STREAM_OCTAVES]; /* their angular frequency, for one who goes with the water */
+};
+
+/* Head of the running water: its blocks that have waves, as arguments of an indirect draw. */
+struct virga_streams_gpu {
+    uint vertices;                   /* of a block */
+    uint blocks;                     /* in the list */
+    uint first[2];                   /* 0 */
+    uint shown[VIRGA_STREAM_BLOCKS]; /* 1: some cell of the block has waves; by rows of stream_blocks */
+    uint list[VIRGA_STREAM_BLOCKS];  /* their numbers */
 };
 
 /* A 64-bit count of water (nl). */
@@ -195,12 +245,14 @@ struct virga_ground_count_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_ring_gpu, 40);
+VIRGA_ASSERT_SIZE(virga_ring_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_stream_gpu, 72);
+VIRGA_ASSERT_SIZE(virga_streams_gpu, 16 + 8 * VIRGA_STREAM_BLOCKS);
 VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_contact_gpu, 80);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 264 + 80 * VIRGA_GROUND_CONTACTS + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 376 + 80 * VIRGA_GROUND_CONTACTS + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

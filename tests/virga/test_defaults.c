@@ -170,6 +170,7 @@ static void ground(void **state)
     SAME(start_wetness);
     SAME(start_water_mm);
     SAME(contact_droplets);
+    SAME(stream_waves);
     scene_file_free(scene);
 }
 

@@ -50,6 +50,8 @@ static const scene_row ground_rows[] = {
            "rain of that depth has gathered in hollows before the first frame"),
     WHOLE(scene_ground, contact_droplets, 0, 64, "12", LIVE,
           "droplets at most that a wheel throws out of a cell in a tick; 0: none"),
+    NUMBER(scene_ground, stream_waves, 0, 4, "1", LIVE,
+           "height of the waves on water that runs; 1: as they are, 0: none"),
     SWITCH(scene_ground, contact_shade, "true", LIVE,
            "wet ground is darker under cars and at the foot of what stands on it"),
     LIST(scene_ground, materials, material_count, &ground_rule_group, 0, 256, "[]",
@@ -342,6 +344,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.start_wetness = (float)from->start_wetness;
     settings.start_water_mm = (float)from->start_water_mm;
     settings.contact_droplets = from->contact_droplets;
+    settings.stream_waves = (float)from->stream_waves;
     settings.measure = s->options.stats;
     return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
 }

@@ -140,6 +140,11 @@ typedef struct virga_ground_settings {
      * a hundred times that number in a tick at 60 km/h, and each is in the air for half a second. Default 12. */
     uint32_t contact_droplets;
 
+    /* [0; 4] how high the waves are that running water has in the ripple map: those over the stones of its bed and over
+     * its own turbulence, by its depth and speed. 1: as they are. 0: none, and no cost. Costs a pass over the cells of
+     * the ripple map's area, and a draw of those that have such waves. Default 1. */
+    float stream_waves;
+
     /* Sums the water of all cells in each step, for the statistics. Costs one pass over all cells. Default true. */
     bool measure;
 } virga_ground_settings;
@@ -330,9 +335,10 @@ typedef struct virga_ground_maps {
     /* R32_UINT: two texels per cell, 8 x 8 bits of dark spots, row by row. */
     VkImageView spots;
 
-    /* R16G16_SFLOAT: slope of the water surface in x and z at the newest tick. It goes on under dry ground, so use it
-     * only where the depth is not zero. Does not wrap. It has about four fifths of the slope variance in `wetness`, so
-     * add a fifth of that to the roughness where the map is used, and all of it elsewhere. */
+    /* R16G16_SFLOAT: slope of the water surface in x and z at the newest tick, of the rings of drops and of water that
+     * runs. It goes on under dry ground, so use it only where the depth is not zero. Does not wrap. It has about four
+     * fifths of the slope variance in `wetness`, so add a fifth of that to the roughness where the map is used, and all
+     * of it elsewhere. */
     VkImageView ripples;
     uint32_t ripple_texels;
     float ripple_texel_m;
