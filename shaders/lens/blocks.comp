@@ -1,8 +1,8 @@
 // blocks.comp - sums light that spreads over wide discs in blocks of texels, see levels.glsl.
 //
-// The kinds of blocks: light behind the focus of the level's radii; all that is not in front of the focus, for what a
-// near blur uncovers; light in front of the focus of the level's radii. Each kind is left out where nothing in the
-// picture needs it.
+// The kinds of blocks: light behind the focus of the level's radii; all that is not in front of the focus, or is behind
+// light of the smallest wide discs, for what a near blur uncovers; light in front of the focus of the level's radii.
+// Each kind is left out where nothing in the picture needs it.
 // One invocation per block and kind. Reads: samples, spreads, tiles, lists, the layer on the scene. Writes: blocks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -46,7 +46,7 @@ bool needed(uint kind, uint level)
 float share_of(uint kind, uint level, float radius, float spread)
 {
     if (kind == VIRGA_LENS_BLOCKS_ALL)
-        return radius >= -POINT ? 1.0 : 0.0;
+        return behind_share(radius, -float(VIRGA_LENS_FINE));
     if (level_of(radius) != level || (radius < 0.0) != (kind == VIRGA_LENS_BLOCKS_NEAR))
         return 0.0;
     return LAYER || kind == VIRGA_LENS_BLOCKS_NEAR ? spread : 1.0;

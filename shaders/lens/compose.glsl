@@ -41,20 +41,6 @@ vec4 blurred(vec4 sharp, vec4 from_field, float radius)
 
 vec4 over(vec4 front, vec4 back) { return front + (1.0 - front.a) * back; }
 
-// A pixel in front of the focus, of which a share is blurred: the rest is what is behind the near field here. It must
-// not count as near field, which hides layers: where a layer has something, it is in front of this pixel.
-void keep_sharp_part(vec4 sharp, float share, inout vec4 near, inout vec4 far)
-{
-    if (share <= 0.0) { // here may be no field
-        near = vec4(0.0);
-        far = sharp;
-        return;
-    }
-    const float hidden = share * near.a; // by the near field
-    far = hidden < 1.0 ? mix(sharp, far, share * (1.0 - near.a) / (1.0 - hidden)) : far;
-    near *= share;
-}
-
 // The scene without layers, from its fields. `near_px` is the signed circle of confusion of what is in `near`.
 void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float near_px)
 {
@@ -77,10 +63,9 @@ void scene_of(vec4 behind, vec4 before, out vec4 near, out vec4 far, out float n
     far = vec4(behind.rgb, 1.0);
     if (SOFT)
         return;
-    if (radius >= 0.0)
+    // In front of the focus, too: where it is little, what is blurred of the pixel itself is in the far field.
+    if (HALVED || radius >= 0.0)
         far = blurred(sharp, far, radius);
-    else if (HALVED)
-        keep_sharp_part(sharp, blurriness(radius), near, far);
 }
 
 void scene_at(out vec4 near, out vec4 far, out float near_px)

@@ -7,7 +7,9 @@
 // over the rest. Behind the focus, a sample is cut by what is nearer: it spreads no farther than the circle of the
 // texel that it would cover, so nothing bleeds over a sharp edge in front of it. The far field is divided by the sum
 // of its weights. Its fourth component is the near field's mean circle of confusion, which says what layers are in
-// front of it. Where the near field hides the far field, the samples around fill in what the near blur uncovers.
+// front of it. Where the near field hides the far field, the samples around fill in what the near blur uncovers: those
+// that are not in front of the focus, and those that are much less so (behind_share in lens.glsl). Else everything in a
+// picture that is focused beyond all of it would have a sharp outline.
 //
 // At half resolution a texel in focus has no far field of its own to show, as its pixels are shown as they are. Pixels
 // behind it, at its edge, read between it and its neighbours. So it gets the far field that is behind it there, and
@@ -76,7 +78,7 @@ float covered(ivec2 apart, float squared, float radius, barrel cut)
 }
 
 // In front of the focus, from samples. Wide discs come from blocks.
-field_sum gather_near(gatherer to, inout float circle_sum)
+field_sum gather_near(gatherer to, inout vec2 circles, inout field_sum front)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const float most = level_radius(0u), reach = min(to.reach.x, most);
@@ -93,9 +95,16 @@ field_sum gather_near(gatherer to, inout float circle_sum)
                                            covered(apart, float(x) * float(x) + down, -source.a, to.cut)
                                      : 0.0;
             sum.scene += weight * vec4(source.rgb, 1.0);
-            circle_sum += weight * source.a;
+            circles.x += weight * source.a;
             if (ON_SCENE)
                 sum.on += weight * on_scene_mean(inside(from));
+            if (to.behind && weight > 0.0) {
+                const float before = weight * behind_share(to.own, source.a);
+                front.scene += before * vec4(source.rgb, 1.0);
+                circles.y += before * source.a;
+                if (ON_SCENE)
+                    front.on += before * on_scene_mean(inside(from));
+            }
         }
     }
     return sum;
@@ -103,7 +112,7 @@ field_sum gather_near(gatherer to, inout float circle_sum)
 
 #ifndef NARROW
 // The same, from the blocks of a level.
-field_sum gather_near_blocks(gatherer to, uint level, inout float circle_sum)
+field_sum gather_near_blocks(gatherer to, uint level, inout vec2 circles, inout field_sum front)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const float reach = has_level(to, 1u, level) ? min(to.reach.x, level_radius(level)) : -1.0;
@@ -115,9 +124,16 @@ field_sum gather_near_blocks(gatherer to, uint level, inout float circle_sum)
             const block source = block_at(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
             const vec2 weights = block_covers(source, source.radius, to.cut) / BLOCKS_PER_DISC;
             sum.scene += weights.xxxy * source.light;
-            circle_sum += weights.y * source.light.a * source.radius;
+            circles.x += weights.y * source.light.a * source.radius;
             if (ON_SCENE)
                 sum.on += weights.y * block_on_scene(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+            if (to.behind && source.light.a > 0.0) {
+                const vec2 before = weights * behind_share(to.own, source.radius);
+                front.scene += before.xxxy * source.light;
+                circles.y += before.y * source.light.a * source.radius;
+                if (ON_SCENE)
+                    front.on += before.y * block_on_scene(at, ivec2(x, y), VIRGA_LENS_BLOCKS_NEAR);
+            }
         }
     }
     return sum;
@@ -136,7 +152,8 @@ float far_reach(gatherer to)
     return has_level(to, 0u, 0u) ? min(to.reach.y, most) : -1.0;
 }
 
-field_sum gather_far(gatherer to)
+// `trusted`: the sum of the weights, each times its share of being behind.
+field_sum gather_far(gatherer to, inout float trusted)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const float reach = far_reach(to);
@@ -152,11 +169,15 @@ field_sum gather_far(gatherer to)
             const ivec2 apart = ivec2(x, y), from = to.texel + apart;
             const vec4 source = sample_in(row, from);
             const float radius = NEAR && to.behind ? max(source.a, -to.own) : min(source.a, cut_to);
-            const float gathered = source.a >= least && is_fine(source.a, most) ? 1.0 : 0.0;
+            float gathered = source.a >= least && is_fine(source.a, most) ? 1.0 : 0.0;
+            if (NEAR && to.behind)
+                gathered = is_fine(source.a, most) ? behind_share(source.a, to.own) : 0.0;
             const float covers_it = covered(-apart, float(x) * float(x) + down, radius, to.cut);
             float weight = gathered * covers_it / disc_area(max(radius, POINT));
-            if (NEAR && to.behind)
-                weight *= nearness(vec2(apart), source.a);
+            if (NEAR && to.behind) {
+                weight *= nearness(vec2(apart), max(source.a, 0.0));
+                trusted += weight * gathered;
+            }
             sum.scene += weight * vec4(source.rgb, 1.0);
             if (ON_SCENE)
                 sum.on += weight * on_scene_mean(inside(from));
@@ -177,7 +198,7 @@ float far_block_reach(gatherer to, uint level)
     return min(min(to.reach.y, most), to.beside ? most : to.own);
 }
 
-field_sum gather_far_blocks(gatherer to, uint level)
+field_sum gather_far_blocks(gatherer to, uint level, inout float trusted)
 {
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const uint kind = to.behind ? VIRGA_LENS_BLOCKS_ALL : VIRGA_LENS_BLOCKS_FAR;
@@ -191,10 +212,15 @@ field_sum gather_far_blocks(gatherer to, uint level)
             const float radius = NEAR && to.behind ? max(source.radius, -to.own) : min(source.radius, cut_to);
             vec2 weights = block_covers(source, radius, to.cut) /
                            (3.14159265 * vec2(soft_area(radius, source.softs.x), soft_area(radius, source.softs.y)));
-            // What is near is filled in from single texels, so that something thin before a lamp does not dim it.
+            // What is near is filled in from single texels, so that something thin before a lamp does not dim it. Light
+            // is weighted as its weight is: at the rim of a block's disc, that of a lamp would be divided by next to
+            // nothing.
             if (NEAR && to.behind) {
+                weights.x = weights.y;
                 const float apart = max(length(source.weight_apart), level_radius(0u));
-                weights *= nearness(vec2(apart, 0.0), source.radius);
+                const float share = behind_share(source.radius, to.own);
+                weights *= share * nearness(vec2(apart, 0.0), max(source.radius, 0.0));
+                trusted += float(1 << 2 * level) * share * weights.y * source.light.a;
             }
             sum.scene += weights.xxxy * source.light;
             if (ON_SCENE)
@@ -208,12 +234,12 @@ field_sum gather_far_blocks(gatherer to, uint level)
 field_sum plus(field_sum a, field_sum b) { return field_sum(a.scene + b.scene, a.on + b.on); }
 
 // The far field of a texel, with weights. `fine`: from single texels.
-field_sum scene_behind(gatherer to, vec3 own_color, field_sum fine)
+field_sum scene_behind(gatherer to, vec3 own_color, field_sum fine, inout float trusted)
 {
     field_sum sum = fine;
 #ifndef NARROW
     for (int level = 1; level <= to.top; level++) {
-        const field_sum wide = gather_far_blocks(to, uint(level));
+        const field_sum wide = gather_far_blocks(to, uint(level), trusted);
         const float texels = float(1 << 2 * level); // a block keeps means
         sum = plus(sum, field_sum(texels * wide.scene, texels * wide.on));
     }
@@ -229,16 +255,15 @@ field_sum scene_behind(gatherer to, vec3 own_color, field_sum fine)
     return sum;
 }
 
-// The near field, and its mean circle of confusion.
-field_sum scene_before(gatherer to, out float circle)
+// The near field. `front`: what of it is before a texel that is in front of the focus itself. `circles`: the sums of
+// the circles of confusion of both.
+field_sum scene_before(gatherer to, inout vec2 circles, inout field_sum front)
 {
-    float circle_sum = 0.0;
-    field_sum sum = gather_near(to, circle_sum);
+    field_sum sum = gather_near(to, circles, front);
 #ifndef NARROW
     for (int level = 1; level <= to.top; level++)
-        sum = plus(sum, gather_near_blocks(to, uint(level), circle_sum));
+        sum = plus(sum, gather_near_blocks(to, uint(level), circles, front));
 #endif
-    circle = sum.scene.a > 0.0 ? circle_sum / sum.scene.a : 0.0;
     return sum;
 }
 
@@ -258,35 +283,71 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
         imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
 }
 
+// A near field that is all, or a share of that. What is before the texel itself (`front`) hides as much of it as it
+// covers, as if the texel were in focus.
+void make_all(inout field_sum near, inout field_sum front, float share)
+{
+    const float rest = near.scene.a - front.scene.a, open = 1.0 - front.scene.a;
+    if (near.scene.a <= 0.0)
+        return;
+    const bool hides = rest <= 1e-4 || open <= 0.0;
+    const float scale = mix(1.0, hides ? 1.0 / near.scene.a : open / rest, share), of_front = hides ? scale : 1.0;
+    near.scene = scale * (near.scene - front.scene) + of_front * front.scene;
+    near.on = scale * (near.on - front.on) + of_front * front.on;
+    front.scene *= of_front;
+    front.on *= of_front;
+}
+
+// (half resolution) How much of a texel that is a little in front of the focus is in the far field, with what is behind
+// it: its pixels are still shown in part as they are, and what is before them hides that part as well.
+float share_in_far(gatherer to)
+{
+    return HALVED && !COARSE && to.behind ? 1.0 - smoothstep(POINT, 2.0 * POINT, -to.own) : 0.0;
+}
+
 // Both fields of a texel, and the layer on the scene. `reach`: the largest radius that reaches its tile, in front of
 // the focus and behind it. `levels`: that have such light. `known`: what gather_far finds, if is_known.
 void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
 {
     vec4 own = sample_in(row_of(texel), texel);
     own.a = gathering_circle(own.a);
-    if (max(reach.x, reach.y) <= POINT) {
+    if (max(reach.x, reach.y) <= POINT && !(FINER && own.a < -BESIDE)) {
         store(texel, vec4(own.rgb, 0.0), vec4(0.0), ON_SCENE ? on_scene_mean(texel) : vec4(0.0));
         return;
     }
     const gatherer to = gatherer(texel, own.a, reach, levels, top_level(levels | levels >> 4), barrel_at(texel),
                                  own.a < -BESIDE, HALVED && abs(own.a) <= BESIDE);
-    float near_circle = 0.0;
-    field_sum near = field_sum(vec4(0.0), vec4(0.0));
+    vec2 circles = vec2(0.0);
+    field_sum near = field_sum(vec4(0.0), vec4(0.0)), front = near;
     if (NEAR)
-        near = scene_before(to, near_circle);
+        near = scene_before(to, circles, front);
+    const float moved = share_in_far(to), stays = near.scene.a - moved * (near.scene.a - front.scene.a);
+    const float near_circle = stays > 0.0 ? (circles.x - moved * (circles.x - circles.y)) / stays : 0.0;
     field_sum fine = field_sum(known, vec4(0.0));
+    float trusted = 0.0;
     if (!is_known(to))
-        fine = gather_far(to);
-    field_sum far = scene_behind(to, own.rgb, fine);
+        fine = gather_far(to, trusted);
+    field_sum far = scene_behind(to, own.rgb, fine, trusted);
+    // How far what was found is behind it. As the focus moves, what is there becomes so bit by bit.
+    const float trust = NEAR && to.behind && far.scene.a > 0.0 ? trusted / far.scene.a : 1.0;
     // Of two fields, each has a part of what is near: nothing behind one of them does not make it all.
     if ((COARSE || FINER) && far.scene.a == 0.0)
         far.scene = near.scene.a > 0.0 ? near.scene : vec4(own.rgb, 1.0);
+    else if ((COARSE || FINER) && trust < 1.0 && near.scene.a > 0.0)
+        far.scene = mix(near.scene / near.scene.a, far.scene / far.scene.a, trust);
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
-    if (near.scene.a > 1.0 || far.scene.a == 0.0) {
-        near.on /= near.scene.a;
-        near.scene /= near.scene.a;
-    }
+    if (near.scene.a > 1.0 || far.scene.a == 0.0)
+        make_all(near, front, 1.0);
+    else if (!COARSE && !FINER && trust < 1.0)
+        make_all(near, front, 1.0 - trust);
     const float per_weight = far.scene.a > 0.0 ? 1.0 / far.scene.a : 0.0;
-    store(texel, vec4(far.scene.rgb * per_weight, near_circle), near.scene,
-          near.on + (1.0 - near.scene.a) * far.on * per_weight);
+    const vec4 on = near.on + (1.0 - near.scene.a) * far.on * per_weight;
+    vec3 behind = far.scene.rgb * per_weight;
+    if (moved > 0.0) {
+        const vec4 with_far = moved * (near.scene - front.scene);
+        const float open = 1.0 - near.scene.a + with_far.a;
+        behind = open > 1e-4 ? (with_far.rgb + (1.0 - near.scene.a) * behind) / open : own.rgb;
+        near.scene -= with_far;
+    }
+    store(texel, vec4(behind, near_circle), near.scene, on);
 }

@@ -93,6 +93,14 @@ float blurriness(float radius) { return HALVED ? smoothstep(0.5, 2.0, abs(radius
 
 #define POINT 0.5 // texels: a smaller circle of confusion is sharp
 
+// How much something is behind what is in front of the focus, by both circles of confusion (texels, with their sign):
+// all of it where it is in focus or behind it. In front of the focus, by how far its circle is beyond a point: all of
+// it up to a quarter of that of what is before it, nothing from three quarters on. `front` is below -POINT.
+float behind_share(float radius, float front)
+{
+    return smoothstep(0.25, 0.75, 1.0 - (radius + POINT) / (front + POINT));
+}
+
 // How much of what has this circle of confusion comes from the coarse fields. `radius` in px.
 float coarseness(float radius) { return smoothstep(VIRGA_LENS_COARSE_FROM, VIRGA_LENS_COARSE_TO, abs(radius)); }
 

@@ -286,14 +286,8 @@ void look_at_wide(ivec2 at, float least)
         }
 }
 
-// How much of the light of a texel in front of the focus goes to this pass.
-float own_share(float radius)
-{
-    if (!COARSE && !FINER)
-        return 1.0;
-    const float wide = coarseness(radius * (1.0 / TEXELS));
-    return BY_SCALE(wide, 1.0 - wide);
-}
+// How much of the light of a texel in front of the focus goes to this pass. COARSE: wide_sample knows.
+float own_share(float radius) { return FINER ? 1.0 - coarseness(radius * (1.0 / TEXELS)) : 1.0; }
 
 // COARSE: the four pixels at a place.
 vec4 four_circles(depth_line line, ivec2 low, ivec2 more, vec2 per_pixel)
@@ -355,8 +349,8 @@ texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float
     const float per_weight = 1.0 / sum_of(of_a + of_b + of_c + of_d);
     const float radius = dot(of_a, a) + dot(of_b, b) + dot(of_c, c) + dot(of_d, d);
     float before = 0.0;
-    if (nearest < -BESIDE)
-        before = before_of(a) + before_of(b) + before_of(c) + before_of(d);
+    if (nearest < -BESIDE) // as much of its light as of the nearest: the other pass has single ones
+        before = (before_of(a) + before_of(b) + before_of(c) + before_of(d)) * coarseness(nearest * (1.0 / TEXELS));
     vec3 sum = vec3(0.0);
     if (SCENE_LINEAR) // all sixteen at once, so that they are waited for once
         sum = stored_sum(low, more, of_a) + stored_sum(right, more, of_b) + stored_sum(below, more, of_c) +
@@ -496,7 +490,7 @@ void gather_both(int pair, vec2 reach)
     if (!SHAPED && max(reach.x, reach.y) > POINT)
         gather_two(texel, vec2(gathering_circle(radius_at(at)), gathering_circle(radius_at(at + 1))), reach.y, known);
     for (int i = 0; i < 2; i++) {
-        if (COARSE) // what is before the focus and not wide is not told, but what is behind it is filled in
+        if (COARSE || FINER) // what the other pass has is not told, but what is behind it is filled in
             has_near = reach.x > POINT || radius_at(at + i) < -BESIDE;
         if (is_there(texel + ivec2(i, 0)))
             gather_texel(texel + ivec2(i, 0), reach, level_bit(0u, 0u) | level_bit(1u, 0u), known[i]);
@@ -598,6 +592,8 @@ void main()
     const vec4 found = uintBitsToFloat(uvec4(found_near[0], found_far[0], found_near[1], found_far[1]));
     const bvec2 blurred = bvec2(!is_sharp(found.xy), !is_sharp(found.zw));
     kept_reach = max(max(found.x, found.y), max(found.z, found.w));
+    if (FINER) // a texel of a wide disc is filled in from those beside it
+        kept_reach = max(kept_reach, 1.0);
     const int around = disc_rows(kept_reach);
     const ivec2 columns = ivec2(blurred.x ? 0 : TILE, blurred.y ? 2 * TILE : TILE); // first, and one after the last
     kept_first = first_texel + ivec2(columns.x, 0) - around;

@@ -33,7 +33,7 @@ layout(location = 0) out vec4 color;
 bool has(uint bit) { return (beside & bit) != 0u; }
 
 // Both fields of the tile, coarse where discs are wide. What is near in one of them and in the other adds up to what
-// is near here.
+// is near here. Wide discs are nearer, so where that would be more than all there is, they hide the others.
 void fields_of_both(uvec2 at, inout vec4 behind, inout vec4 before)
 {
     const vec2 texel = min(0.25 * vec2(at) + 0.125, vec2((uvec2(view.columns, view.rows) + 1u) >> 1u) - 0.5);
@@ -41,6 +41,7 @@ void fields_of_both(uvec2 at, inout vec4 behind, inout vec4 before)
     const vec4 coarse = textureLod(coarse_fields, vec3(place, VIRGA_LENS_FAR), 0.0);
     if (has(VIRGA_LENS_HAS_COARSE_NEAR)) {
         const vec4 coarse_before = textureLod(coarse_fields, vec3(place, VIRGA_LENS_NEAR), 0.0);
+        before *= min(max(1.0 - coarse_before.a, 0.0) / max(before.a, 1e-4), 1.0);
         const float near = before.a + coarse_before.a;
         const float sum = before.a * behind.a + coarse_before.a * 2.0 * coarse.a; // texels of the work image
         behind.a = near > 0.0 ? sum / near : 0.0;

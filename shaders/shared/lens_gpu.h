@@ -27,7 +27,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 /* Kinds of blocks, and what is kept of each. */
 #define VIRGA_LENS_BLOCKS_FAR  0 /* behind the focus, of the level's radii */
 #define VIRGA_LENS_BLOCKS_NEAR 1 /* in front of the focus, of the level's radii */
-#define VIRGA_LENS_BLOCKS_ALL  2 /* all that is not in front of the focus */
+#define VIRGA_LENS_BLOCKS_ALL  2 /* all that is not in front of the focus, or little of that */
 #define VIRGA_LENS_BLOCK_KINDS 3
 
 #define VIRGA_LENS_BLOCK_LIGHT    0 /* light and where it is, see shaders/lens/levels.glsl */

@@ -52,11 +52,18 @@ static inline int lens_inside(int at, uint32_t size)
     return at < 0 ? 0 : at >= (int)size ? (int)size - 1 : at;
 }
 
+/* How much something is behind what is in front of the focus, by both circles of confusion. */
+static inline double lens_behind(double radius, double front)
+{
+    const double t = fmin(fmax((1 - (radius + 0.5) / (front + 0.5) - 0.25) / 0.5, 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
 static inline double lens_reference(const lens_fixture *f, int x, int y)
 {
     const double own = lens_circle(f, x, y);
     const int around = (int)f->settings.max_radius_px + 1;
-    double near = 0, near_weight = 0, far = 0, far_weight = 0;
+    double near = 0, near_weight = 0, front = 0, front_weight = 0, far = 0, far_weight = 0, trusted = 0;
     for (int down = -around; down <= around; down++)
         for (int right = -around; right <= around; right++) {
             const int from_x = lens_inside(x + right, f->scene.width), from_y = lens_inside(y + down, f->scene.height);
@@ -65,21 +72,31 @@ static inline double lens_reference(const lens_fixture *f, int x, int y)
             if (radius < -0.5) {
                 const double covered = lens_coverage(&f->settings, right, down, -radius);
                 const double weight = covered > 0 ? covered / lens_disc_area(&f->settings, -radius) : 0;
+                const double before = own < -0.5 ? weight * lens_behind(own, radius) : 0;
                 near += weight * gray;
                 near_weight += weight;
-            } else {
+                front += before * gray;
+                front_weight += before;
+            }
+            const double behind = own < -0.5 ? lens_behind(radius, own) : radius < -0.5 ? 0 : 1;
+            if (behind > 0) {
                 const double cut = own < -0.5 ? fmax(radius, -own) : fmin(radius, fmax(own, 0.5));
                 const double wide = fmax(cut, 0.5);
                 const double near_by = own < -0.5 ? fmin(pow(fmax(radius, 1) / hypot(right, down), 6), 1) : 1;
-                const double weight =
-                    near_by * lens_coverage(&f->settings, -right, -down, cut) / (M_PI * (wide * wide + 1.0 / 12) + 0.1);
+                const double weight = behind * near_by * lens_coverage(&f->settings, -right, -down, cut) /
+                                      (M_PI * (wide * wide + 1.0 / 12) + 0.1);
                 far += weight * gray;
                 far_weight += weight;
+                trusted += weight * behind;
             }
         }
-    if (near_weight > 1 || !(far_weight > 0)) {
-        near /= near_weight;
-        near_weight = 1;
+    const double share = near_weight > 1 || !(far_weight > 0) ? 1 : 1 - trusted / far_weight;
+    if (share > 0 && near_weight > 0) {
+        const double rest = near_weight - front_weight, open = 1 - front_weight;
+        const bool hides = rest <= 1e-4 || open <= 0;
+        const double scale = 1 + share * ((hides ? 1 / near_weight : open / rest) - 1);
+        near = scale * near + (hides ? 0 : 1 - scale) * front;
+        near_weight = scale * near_weight + (hides ? 0 : 1 - scale) * front_weight;
     }
     return near + (1 - near_weight) * (far_weight > 0 ? far / far_weight : 0);
 }

@@ -1,6 +1,6 @@
 /* test_lens_edges.c - edges of depth: nothing bleeds over what is in front of it, and what a near blur uncovers is
  * filled in. */
-#include "lens_fixture.h"
+#include "lens_bar.h"
 
 /* A gray wall in focus with a pole of one pixel before lamps at infinity: a test chart of 64 x 32 pixels. */
 static void a_thin_pole_in_focus_keeps_its_color_before_bright_lamps(void **state)
@@ -77,6 +77,26 @@ static void a_near_edge_is_soft_on_both_sides_and_shows_the_wall(void **state)
     }
 }
 
+/* In the full resolution, and in half of it. */
+static void what_is_little_before_the_focus_is_seen_through_what_is_far_before_it(void **state)
+{
+    static float before[LENS_BAR_WIDTH];
+    (void)state;
+    for (int half = 0; half < 2; half++) {
+        lens_fixture f;
+        double changes = 0, apart = 0;
+        lens_fixture_open(&f, LENS_BAR_WIDTH, LENS_BAR_HEIGHT, half);
+        for (int step = 0; step < LENS_BAR_STEPS; step++) {
+            lens_paint_bar(&f.scene, 1, 10, 12, step);
+            lens_fixture_run(&f);
+            lens_look_at_bar(&f, 10, 12, step, before, &changes, &apart);
+        }
+        printf("half %d: up to %.4f apart, a step changes up to %.4f\n", half, apart, changes);
+        assert_true(apart < (half ? 0.04 : 0.025) && changes < (half ? 0.03 : 0.01));
+        lens_fixture_close(&f);
+    }
+}
+
 static void layers_never_mix_with_the_black_around_them(void **state)
 {
     (void)state;
@@ -133,6 +153,7 @@ int main(void)
         cmocka_unit_test(a_lamp_before_a_wall_in_focus_covers_it_with_its_disc),
         cmocka_unit_test(a_hole_in_a_wall_in_focus_lets_no_blur_out),
         cmocka_unit_test(a_near_edge_is_soft_on_both_sides_and_shows_the_wall),
+        cmocka_unit_test(what_is_little_before_the_focus_is_seen_through_what_is_far_before_it),
         cmocka_unit_test(layers_never_mix_with_the_black_around_them),
         cmocka_unit_test(a_layer_is_blurred_by_its_own_depth_and_keeps_its_light),
         cmocka_unit_test(what_is_near_covers_a_layer_behind_it),

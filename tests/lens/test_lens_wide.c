@@ -1,5 +1,6 @@
 /* test_lens_wide.c - in place on GPUs, wide discs come from a quarter of the resolution. They look as those of the
  * passes for discs of any width, and nothing pops where one becomes the other. */
+#include "lens_bar.h"
 #include "lens_host.h"
 
 #define WIDTH  192
@@ -203,6 +204,34 @@ static void no_line_is_around_what_is_a_little_before_the_focus(void **state)
     assert_true(worst < 0.06);
 }
 
+/* In one pass; then with bars of both fields at once, and from a quarter of the resolution. A bar may be thinner than a
+ * texel there. */
+static void what_is_little_before_the_focus_is_seen_through_what_is_far_before_it(void **state)
+{
+    static const struct {
+        bool wide;
+        double radius_px;
+        uint32_t width;
+    } bars[] = {{false, 12, 12}, {true, 22, 12}, {true, 13, 2}, {true, 15, 2}, {true, 24, 2}};
+    static float before[LENS_BAR_WIDTH];
+    (void)state;
+    for (size_t i = 0; i < sizeof bars / sizeof *bars; i++) {
+        host h;
+        double changes = 0, apart = 0;
+        open_way(&h, true);
+        h.f.settings.max_radius_px = bars[i].wide ? 32 : 16;
+        for (int step = 0; step < LENS_BAR_STEPS; step++) {
+            lens_paint_bar(&h.f.scene, 4, bars[i].radius_px, bars[i].width, step);
+            run_way(&h, bars[i].wide);
+            lens_look_at_bar(&h.f, bars[i].radius_px, bars[i].width, step, before, &changes, &apart);
+        }
+        printf("radius %.0f, width %u: up to %.4f apart, a step changes up to %.4f\n", bars[i].radius_px, bars[i].width,
+               apart, changes);
+        assert_true(apart < 0.025 && changes < 0.025);
+        close_host(&h);
+    }
+}
+
 /* Something in front of the focus and something behind it in the middle of what is in focus, after a picture of which
  * all was bright and out of focus. */
 static void nothing_is_left_of_the_picture_before(void **state)
@@ -290,6 +319,7 @@ int main(void)
         cmocka_unit_test(a_near_edge_is_soft_on_both_sides_and_shows_the_wall),
         cmocka_unit_test(a_street_looks_as_in_the_passes_for_any_width),
         cmocka_unit_test(no_line_is_around_what_is_a_little_before_the_focus),
+        cmocka_unit_test(what_is_little_before_the_focus_is_seen_through_what_is_far_before_it),
         cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(a_color_that_is_no_number_does_not_spread),
         cmocka_unit_test(other_devices_and_wider_discs_take_the_other_passes),
