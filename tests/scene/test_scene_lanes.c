@@ -1,5 +1,5 @@
-/* test_scene_lanes.c - on GPUs effects that have nothing to do with each other share barriers (gpu/lanes.h). A scene has
- * the same bits with them, and far fewer barriers. */
+/* test_scene_lanes.c - on GPUs effects that have nothing to do with each other share barriers (gpu/lanes.h). A scene
+ * has the same bits with them, and far fewer barriers. */
 #include "state_run.h"
 
 #include "gpu/context.h"

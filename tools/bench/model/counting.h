@@ -29,10 +29,10 @@ typedef struct counted_pass {
     uint32_t calls_so_far, waits_so_far; /* of a frame that has not ended */
     uint32_t times_so_far;
     uint32_t last_barrier; /* number of barriers before the last call */
-    uint32_t frames;                     /* that used it since counting_forget */
-    bool counts;                         /* in this frame */
-    bool ended;                          /* its pipeline was destroyed */
-    float target_bytes;                  /* that a fragment reads and writes of its attachments */
+    uint32_t frames;       /* that used it since counting_forget */
+    bool counts;           /* in this frame */
+    bool ended;            /* its pipeline was destroyed */
+    float target_bytes;    /* that a fragment reads and writes of its attachments */
 } counted_pass;
 
 /* An image of the host's, which passes read: its bytes count from now on. */
