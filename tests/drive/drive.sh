@@ -42,7 +42,7 @@ render inside_rain --rain 80 --wipers off
 without_layers inside_dry --rain 0 --wipers off
 python3 "$look" "$work/inside_rain.png" "$work/inside_dry.png" 0.02
 render inside_focus --rain 0 --wipers off --focus
-python3 "$look" "$work/inside_focus.png" "$work/inside_dry.png" 0.01
+python3 "$look" "$work/inside_focus.png" "$work/inside_dry.png" 0.006
 render outside_rain --rain 80 --outside
 without_layers outside_dry --rain 0 --outside
 python3 "$look" "$work/outside_rain.png" "$work/outside_dry.png" 0.02

@@ -116,8 +116,9 @@ fi
 [ -z "$(find "$out" -name '.*' -type f)" ] || fail "left $(find "$out" -name '.*' -type f)"
 
 # A seed beyond OpenEXR's signed integers, and frames behind the scene's last: the camera stays where its path ends.
-VIRGA_VALIDATE=0 render behind --set frames.last=2 --set camera.keys.1.time_s=0.0416667 --frames 2-3 \
-    --seed 4294967295 --layers depth --set splash.on=false --set ground.on=false
+VIRGA_VALIDATE=0 render behind --set frames.last=2 --set camera.keys.1.time_s=0.02 \
+    --set camera.keys.2.time_s=0.0416667 --frames 2-3 --seed 4294967295 --layers depth \
+    --set splash.on=false --set ground.on=false
 for frame in 2 3; do
     [ -f "$work/behind/frame.000$frame.exr" ] || fail "no frame $frame of a scene with 2"
 done
