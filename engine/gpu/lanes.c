@@ -470,35 +470,46 @@ static void replay_all(virga_lanes *lanes, VkCommandBuffer cmd)
 
 /* ---- lanes */
 
+#define KEPT_FUNCTIONS(X)                                  \
+    X(CmdBindPipeline, keep_CmdBindPipeline)               \
+    X(CmdSetLineWidth, keep_CmdSetLineWidth)               \
+    X(CmdDispatch, keep_CmdDispatch)                       \
+    X(CmdDispatchIndirect, keep_CmdDispatchIndirect)       \
+    X(CmdDraw, keep_CmdDraw)                               \
+    X(CmdDrawIndexed, keep_CmdDrawIndexed)                 \
+    X(CmdDrawIndirect, keep_CmdDrawIndirect)               \
+    X(CmdDrawIndexedIndirect, keep_CmdDrawIndexedIndirect) \
+    X(CmdBindIndexBuffer, keep_CmdBindIndexBuffer)         \
+    X(CmdFillBuffer, keep_CmdFillBuffer)                   \
+    X(CmdPushConstants, keep_CmdPushConstants)             \
+    X(CmdSetViewport, keep_CmdSetViewport)                 \
+    X(CmdSetScissor, keep_CmdSetScissor)                   \
+    X(CmdCopyBuffer, keep_CmdCopyBuffer)                   \
+    X(CmdUpdateBuffer, keep_CmdUpdateBuffer)               \
+    X(CmdCopyBufferToImage, keep_CmdCopyBufferToImage)     \
+    X(CmdCopyImageToBuffer, keep_CmdCopyImageToBuffer)     \
+    X(CmdClearColorImage, keep_CmdClearColorImage)         \
+    X(CmdBindVertexBuffers, keep_vertices)                 \
+    X(CmdBindDescriptorSets, keep_sets)                    \
+    X(CmdBeginRenderPass, keep_pass)                       \
+    X(CmdEndRenderPass, keep_pass_end)                     \
+    X(CmdPipelineBarrier, keep_barrier)                    \
+    X(CmdBeginDebugUtilsLabelEXT, keep_label)              \
+    X(CmdEndDebugUtilsLabelEXT, keep_label_end)
+
+/* Only functions that record are replaced: jobs that build pipelines read the others at any time. */
 static void take_over(virga_functions *vk)
 {
-#define TAKE(name) vk->name = keep_##name
-    TAKE(CmdBindPipeline);
-    TAKE(CmdSetLineWidth);
-    TAKE(CmdDispatch);
-    TAKE(CmdDispatchIndirect);
-    TAKE(CmdDraw);
-    TAKE(CmdDrawIndexed);
-    TAKE(CmdDrawIndirect);
-    TAKE(CmdDrawIndexedIndirect);
-    TAKE(CmdBindIndexBuffer);
-    TAKE(CmdFillBuffer);
-    TAKE(CmdPushConstants);
-    TAKE(CmdSetViewport);
-    TAKE(CmdSetScissor);
-    TAKE(CmdCopyBuffer);
-    TAKE(CmdUpdateBuffer);
-    TAKE(CmdCopyBufferToImage);
-    TAKE(CmdCopyImageToBuffer);
-    TAKE(CmdClearColorImage);
+#define TAKE(name, keeps) vk->name = vk->name ? keeps : NULL;
+    KEPT_FUNCTIONS(TAKE)
 #undef TAKE
-    vk->CmdBindVertexBuffers = keep_vertices;
-    vk->CmdBindDescriptorSets = keep_sets;
-    vk->CmdBeginRenderPass = keep_pass;
-    vk->CmdEndRenderPass = keep_pass_end;
-    vk->CmdPipelineBarrier = keep_barrier;
-    vk->CmdBeginDebugUtilsLabelEXT = vk->CmdBeginDebugUtilsLabelEXT ? keep_label : NULL;
-    vk->CmdEndDebugUtilsLabelEXT = vk->CmdEndDebugUtilsLabelEXT ? keep_label_end : NULL;
+}
+
+static void give_back(virga_functions *vk, const virga_functions *own)
+{
+#define GIVE(name, keeps) vk->name = own->name;
+    KEPT_FUNCTIONS(GIVE)
+#undef GIVE
 }
 
 /* NULL: there are none. */
@@ -531,7 +542,7 @@ void virga_lanes_join(virga_context *context, VkCommandBuffer cmd)
     virga_lanes *lanes = context->lanes;
     if (!lanes || !lanes->open)
         return;
-    context->vk = lanes->vk;
+    give_back(&context->vk, &lanes->vk);
     if (lanes->failed)
         context->recording_failed = VIRGA_ERROR_HOST_MEMORY;
     else

@@ -284,8 +284,8 @@ static void all_commands_are_kept(void **state)
 {
     (void)state;
     virga_context *context = context_of();
+    memset(&context->vk, 1, sizeof context->vk); /* none is called */
     const virga_functions before = context->vk;
-    (void)before;
     virga_lane(context, CMD, 0);
 #define KEPT(name)                                                                                               \
     if (!strncmp(#name, "Cmd", 3) && strcmp(#name, "CmdResetQueryPool") && strcmp(#name, "CmdWriteTimestamp") && \
