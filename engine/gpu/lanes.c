@@ -104,7 +104,19 @@ static void *keep_array(VkCommandBuffer cmd, replay_function *replay, size_t siz
             *k = (kept_##name)values;                                                           \
     }
 
-/* One whose last argument but for those in `arguments` is an array. */
+/* One without arguments. */
+#define BARE(name)                                                                              \
+    static void replay_##name(const virga_functions *vk, VkCommandBuffer cmd, const void *kept) \
+    {                                                                                           \
+        (void)kept;                                                                             \
+        vk->name(cmd);                                                                          \
+    }                                                                                           \
+    static VKAPI_ATTR void VKAPI_CALL keep_##name(VkCommandBuffer cmd)                          \
+    {                                                                                           \
+        keep(cmd, replay_##name, 1);                                                            \
+    }
+
+/* One that has an array besides. */
 #define WITH_ARRAY(name, parameters, members, values, arguments, array, array_size)             \
     typedef struct kept_##name members kept_##name;                                             \
     static void replay_##name(const virga_functions *vk, VkCommandBuffer cmd, const void *from) \
@@ -267,16 +279,7 @@ static VKAPI_ATTR void VKAPI_CALL keep_pass(VkCommandBuffer cmd, const VkRenderP
         *k = (kept_pass){*info, contents};
 }
 
-static void replay_pass_end(const virga_functions *vk, VkCommandBuffer cmd, const void *kept)
-{
-    (void)kept;
-    vk->CmdEndRenderPass(cmd);
-}
-
-static VKAPI_ATTR void VKAPI_CALL keep_pass_end(VkCommandBuffer cmd)
-{
-    keep(cmd, replay_pass_end, 1);
-}
+BARE(CmdEndRenderPass)
 
 /* Names of passes are static. */
 typedef struct kept_label {
@@ -297,16 +300,7 @@ static VKAPI_ATTR void VKAPI_CALL keep_label(VkCommandBuffer cmd, const VkDebugU
         *k = (kept_label){label->pLabelName};
 }
 
-static void replay_label_end(const virga_functions *vk, VkCommandBuffer cmd, const void *kept)
-{
-    (void)kept;
-    vk->CmdEndDebugUtilsLabelEXT(cmd);
-}
-
-static VKAPI_ATTR void VKAPI_CALL keep_label_end(VkCommandBuffer cmd)
-{
-    keep(cmd, replay_label_end, 1);
-}
+BARE(CmdEndDebugUtilsLabelEXT)
 
 /* ---- barriers */
 
@@ -407,7 +401,7 @@ static void note(lane *l, const kept_command *command)
         l->pushed_count = i < l->pushed_count ? l->pushed_count : i + 1;
     } else if (command->replay == replay_label && l->label_count < MAX_LABELS) {
         l->labels[l->label_count++] = command;
-    } else if (command->replay == replay_label_end && l->label_count) {
+    } else if (command->replay == replay_CmdEndDebugUtilsLabelEXT && l->label_count) {
         l->label_count--;
     }
 }
@@ -492,10 +486,10 @@ static void replay_all(virga_lanes *lanes, VkCommandBuffer cmd)
     X(CmdBindVertexBuffers, keep_vertices)                 \
     X(CmdBindDescriptorSets, keep_sets)                    \
     X(CmdBeginRenderPass, keep_pass)                       \
-    X(CmdEndRenderPass, keep_pass_end)                     \
+    X(CmdEndRenderPass, keep_CmdEndRenderPass)             \
     X(CmdPipelineBarrier, keep_barrier)                    \
     X(CmdBeginDebugUtilsLabelEXT, keep_label)              \
-    X(CmdEndDebugUtilsLabelEXT, keep_label_end)
+    X(CmdEndDebugUtilsLabelEXT, keep_CmdEndDebugUtilsLabelEXT)
 
 /* Only functions that record are replaced: jobs that build pipelines read the others at any time. */
 static void take_over(virga_functions *vk)

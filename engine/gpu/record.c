@@ -139,6 +139,21 @@ void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage im
     context->vk.CmdPipelineBarrier(cmd, from, after.stage, 0, 0, NULL, 0, NULL, 1, &barrier);
 }
 
+void virga_fill_sampled(virga_context *context, VkCommandBuffer cmd, VkImage image, VkBuffer from, VkExtent2D extent,
+                        uint32_t layers)
+{
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const virga_image_state filled = {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                      VK_ACCESS_TRANSFER_WRITE_BIT};
+    const virga_image_state ready = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                     VK_ACCESS_SHADER_READ_BIT};
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, layers},
+                                    .imageExtent = {extent.width, extent.height, 1}};
+    virga_image_barrier(context, cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, before, filled);
+    context->vk.CmdCopyBufferToImage(cmd, from, image, filled.layout, 1, &copy);
+    virga_image_barrier(context, cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, filled, ready);
+}
+
 void virga_set_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4])
 {
     const VkViewport area = {viewport[0], viewport[1], viewport[2], viewport[3], 0, 1};

@@ -71,6 +71,10 @@ void virga_draw_indexed_indirect(virga_context *context, VkCommandBuffer cmd, co
 void virga_bind(virga_context *context, VkCommandBuffer cmd, VkPipelineBindPoint point, const virga_bindings *bindings,
                 VkDescriptorSet set, uint32_t offset_count, const uint32_t *offsets);
 
+/* Copies a buffer into all of a color image that fragments sample from then on. `extent`: of a layer. */
+void virga_fill_sampled(virga_context *context, VkCommandBuffer cmd, VkImage image, VkBuffer from, VkExtent2D extent,
+                        uint32_t layers);
+
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
                          virga_image_state before, virga_image_state after);
 

@@ -111,16 +111,8 @@ error:
 
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples)
 {
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const virga_image_state filled = {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                      VK_ACCESS_TRANSFER_WRITE_BIT};
-    const virga_image_state ready = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                     VK_ACCESS_SHADER_READ_BIT};
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, VIRGA_RING_LAYERS},
-                                    .imageExtent = {VIRGA_RING_RADII, VIRGA_RING_TIMES, 1}};
-    virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, before, filled);
-    context->vk.CmdCopyBufferToImage(cmd, ripples->upload->buffer, ripples->waves->image, filled.layout, 1, &copy);
-    virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, filled, ready);
+    virga_fill_sampled(context, cmd, ripples->waves->image, ripples->upload->buffer,
+                       (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES}, VIRGA_RING_LAYERS);
 }
 
 void ground_ripples_draw(const virga_ground *ground, VkCommandBuffer cmd)

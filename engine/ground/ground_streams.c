@@ -68,16 +68,8 @@ error:
 
 void ground_streams_upload(virga_context *context, VkCommandBuffer cmd, ground_streams *streams)
 {
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const virga_image_state filled = {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                      VK_ACCESS_TRANSFER_WRITE_BIT};
-    const virga_image_state ready = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                     VK_ACCESS_SHADER_READ_BIT};
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {STREAM_TABLE_SIDE, STREAM_TABLE_SIDE, 1}};
-    virga_image_barrier(context, cmd, streams->tile->image, VK_IMAGE_ASPECT_COLOR_BIT, before, filled);
-    context->vk.CmdCopyBufferToImage(cmd, streams->upload->buffer, streams->tile->image, filled.layout, 1, &copy);
-    virga_image_barrier(context, cmd, streams->tile->image, VK_IMAGE_ASPECT_COLOR_BIT, filled, ready);
+    virga_fill_sampled(context, cmd, streams->tile->image, streams->upload->buffer,
+                       (VkExtent2D){STREAM_TABLE_SIDE, STREAM_TABLE_SIDE}, 1);
 }
 
 /* The two layers of waves take turns: each begins where the other is at its highest, and has a weight that is 0 as it
