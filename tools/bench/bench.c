@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 const uint32_t bench_sizes[BENCH_SIZES][2] = {{640, 360}, {1280, 720}, {1920, 1080}};
 
@@ -128,6 +129,13 @@ static uint32_t newest_times(const bench *b, virga_pass_time times[MAX_TIMES])
         if (times[i].frame_index == frame)
             times[newest++] = times[i];
     return newest;
+}
+
+double bench_worked_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
 double bench_pass_ms(const bench *b, const char *name)

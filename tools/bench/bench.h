@@ -47,6 +47,9 @@ bool bench_submit(bench *b, double *milliseconds);
 /* Time of a pass of the newest frame; 0 if it was not recorded. */
 double bench_pass_ms(const bench *b, const char *name);
 
+/* Time (ms) that all threads of the program have worked, which other programs on the machine hardly change. */
+double bench_worked_ms(void);
+
 /* Time of a draw in the newest frame, which took `frame_ms` with all that was recorded. A software device does not time
  * draws: there it is what the frame's timed passes leave. */
 double bench_draw_ms(const bench *b, const char *name, double frame_ms);

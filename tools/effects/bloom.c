@@ -15,7 +15,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 typedef struct bloom_state {
     const shot *of; /* NULL: not open */
@@ -103,13 +102,6 @@ typedef struct frame_times {
     double worked[RUNS]; /* ms, that all threads worked, which other programs on the machine hardly change */
 } frame_times;
 
-static double worked_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
-
 /* A frame that clears the plate and a layer, with the bloom or without it. What is in the picture changes no time. */
 static bool time_frame(bench *b, const host_target *target, host_bloom *bloom, frame_times *times, size_t run)
 {
@@ -127,9 +119,9 @@ static bool time_frame(bench *b, const host_target *target, host_bloom *bloom, f
     if (bloom)
         host_bloom_draw(bloom, cmd);
     host_target_end_layer(target, cmd);
-    const double start = worked_ms();
+    const double start = bench_worked_ms();
     const bool good = bench_submit(b, &times->waited[run]);
-    times->worked[run] = worked_ms() - start;
+    times->worked[run] = bench_worked_ms() - start;
     return good;
 }
 
@@ -160,7 +152,7 @@ static bool measure(bench *b, const host_target *target, double fill_ms)
 static bool run(bench *b, const options *parsed)
 {
     (void)parsed;
-    printf("bloom of wet air, without what it is the bloom of\n");
+    printf("bloom of wet air: a frame with it, less one without\n");
     for (int i = 0; i < BENCH_SIZES && !interrupt_requested(); i++) {
         limits *l;
         if (!limits_create(&b->device, &b->targets[i], 1024, &l, b->error, sizeof b->error))

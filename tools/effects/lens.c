@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
 
@@ -318,13 +317,6 @@ typedef struct frame_times {
     double worked[RUNS]; /* ms, that all threads worked, which other programs on the machine hardly change */
 } frame_times;
 
-static double worked_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
-
 /* Times of a submission, with or without a lens. */
 static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens_case *row, frame_times *times,
                        size_t run)
@@ -338,9 +330,9 @@ static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens
         return options_complain("bench", "a prepare failed");
     if (lens && row->in_place && !draw_in_place(lens, p, cmd))
         return options_complain("bench", "a draw failed");
-    const double start = worked_ms();
+    const double start = bench_worked_ms();
     const bool good = bench_submit(b, &times->waited[run]);
-    times->worked[run] = worked_ms() - start;
+    times->worked[run] = bench_worked_ms() - start;
     return good;
 }
 
@@ -486,9 +478,9 @@ static bool measure_fill(bench *b, const pictures *p, fill_cost *cost)
         return bench_fail(b, "picture");
     bool good = limits_create(&b->device, &target, 1024, &l, b->error, sizeof b->error);
     cost->waited = good ? limits_fill_ms(&b->device, l, &target) : -1; /* the first compiles */
-    const double start = worked_ms();
+    const double start = bench_worked_ms();
     cost->waited = good ? limits_fill_ms(&b->device, l, &target) : -1;
-    cost->worked = (worked_ms() - start) / BENCH_RUNS;
+    cost->worked = (bench_worked_ms() - start) / BENCH_RUNS;
     if (good)
         limits_destroy(&b->device, &l);
     host_target_destroy(&b->device, &target);

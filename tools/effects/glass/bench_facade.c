@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define WIDTH     1280u
 #define HEIGHT    720u
@@ -45,13 +44,6 @@ typedef struct facade {
     host_camera camera;
     uint32_t tick;
 } facade;
-
-static double worked_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
 
 /* As assets/README.md has it for far windows. */
 static virga_glass_def def_of(const struct row *row)
@@ -92,14 +84,14 @@ static bool open_facade(bench *b, const struct row *row, facade *f)
     const host_camera_key key = {0, {9.6, 9.75, 28}, {9.6, 9.75, 0}, 0, false};
     const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 40, .near_m = 0.1, .far_m = 100};
     host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &f->camera);
-    const double start = progress_now(), worked = worked_ms();
+    const double start = progress_now(), worked = bench_worked_ms();
     while (f->count < row->panes && open_pane(b, f, &def, f->count))
         f->count++;
     if (f->count < row->panes)
         return options_complain("bench", "pane %u could not be made", f->count);
     printf("%u pane%s of %g x %g m%s, %.1f MiB each at most; made in %.0f ms, processors %.0f ms\n", f->count,
            f->count > 1 ? "s" : "", (double)def.width_m, (double)def.height_m, f->apart ? ", prepared one by one" : "",
-           (double)virga_glass_estimate(&def) / 1048576, (progress_now() - start) * 1e3, worked_ms() - worked);
+           (double)virga_glass_estimate(&def) / 1048576, (progress_now() - start) * 1e3, bench_worked_ms() - worked);
     return true;
 }
 
@@ -134,7 +126,7 @@ static bool record(facade *f, VkCommandBuffer cmd, uint32_t ticks)
 static bool frame(bench *b, facade *f, uint32_t ticks, double times[3])
 {
     VkCommandBuffer cmd;
-    const double worked = worked_ms();
+    const double worked = bench_worked_ms();
     if (!bench_begin(b, &cmd))
         return false;
     const double start = progress_now();
@@ -142,7 +134,7 @@ static bool frame(bench *b, facade *f, uint32_t ticks, double times[3])
     times[0] = (progress_now() - start) * 1e3;
     if (!bench_submit(b, &times[1]) || !good)
         return options_complain("bench", "a frame failed");
-    times[2] = worked_ms() - worked;
+    times[2] = bench_worked_ms() - worked;
     return true;
 }
 

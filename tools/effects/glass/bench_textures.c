@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #define WIDTH      320u
 #define HEIGHT     240u
@@ -81,14 +80,6 @@ static bool set_way(pane *p, const struct way *way)
     return virga_glass_set(p->glass, &settings) >= 0;
 }
 
-/* Time that all threads of the program have worked, which other programs on the machine hardly change. */
-static double worked_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
-
 /* A frame with so many ticks; the time of recording it is counted, too. */
 static bool frame(bench *b, pane *p, uint32_t ticks, float rate_mm_h, double *milliseconds)
 {
@@ -150,9 +141,9 @@ static bool measure(bench *b, pane *p, const struct way *way)
     for (int i = -2; good && i < RUNS && !interrupt_requested(); i++) {
         const int at = i < 0 ? 0 : i;
         good = frame(b, p, 1, 0, &moved[at]);
-        const double start = worked_ms();
+        const double start = bench_worked_ms();
         good = good && frame(b, p, 0, 0, &still[at]);
-        worked[at] = worked_ms() - start;
+        worked[at] = bench_worked_ms() - start;
         textures[at] =
             way->style == VIRGA_GLASS_STYLE_TEXTURES || way->textured_px > 0 ? bench_pass_ms(b, "glass.textures") : 0;
         draw[at] = bench_draw_ms(b, "glass.draw", still[at]);
