@@ -23,75 +23,84 @@ vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell
     return texelFetch(wet_map, (low_cell + cell) & (cells - 1), 0);
 }
 
-// One of the 8 x 8 spot bits of a cell, 0 or 1. `bit` counts from the window's low corner. `chance` gets four random
-// numbers in [0; 1) that are fixed at the position on the ground.
-float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit, out vec4 chance)
+// ---- dark spots of first drops
+//
+// Each of the 8 x 8 bits of a cell is a place for one drop's spot. The places have random middles and radii, which stay
+// the same, so spots lie on no lattice; a drop takes the places around it that fit its size (ground/land.comp).
+
+const float VIRGA_GROUND_SPOTS_UNTIL = 0.8; // fuller pores are as dark as a spot: none can be seen
+const float VIRGA_GROUND_SPOT_MEAN = 0.69;  // darkness of a spot by itself, summed over it, in bits
+
+// Four random numbers in [0; 1) for the bit with this index, which counts from the corner of the cells' wrap-around.
+vec4 virga_ground_spot_chance(ivec2 index)
 {
-    const ivec2 texel = (low_cell + (bit >> 3)) & (cells - 1);
-    const ivec2 inside = bit & 7;
-    const uint word = texelFetch(spot_map, ivec2(2 * texel.x + (inside.y >> 2), texel.y), 0).r;
-    uint mixed = uint(8 * texel.x + inside.x) * 0x8DA6B343u + uint(8 * texel.y + inside.y) * 0xD8163841u;
+    uint mixed = uint(index.x) * 0x8DA6B343u + uint(index.y) * 0xD8163841u;
     mixed = (mixed ^ mixed >> 15) * 0xCB1AB31Fu;
     mixed ^= mixed >> 14;
-    chance = vec4(mixed & 255u, mixed >> 8 & 255u, mixed >> 16 & 255u, mixed >> 24) / 256.0;
-    return float((word >> uint((inside.y & 3) * 8 + inside.x)) & 1u);
+    return vec4(mixed & 255u, mixed >> 8 & 255u, mixed >> 16 & 255u, mixed >> 24) / 256.0;
 }
 
-const float VIRGA_GROUND_SPOT_MEAN = 0.66; // darkness of a spot by itself, summed over it, in bits
+// The middle of a spot, from its bit's low corner, and its radius, in bits. Together less than 2: around a position the
+// 3 x 3 bits are enough.
+vec2 virga_ground_spot_middle(vec4 chance) { return 0.1 + 0.8 * chance.xy; }
+float virga_ground_spot_radius(vec4 chance) { return 0.35 + 0.55 * chance.z; }
 
-// How dark the spot of a bit makes a position, 0 to 1. `from` is the offset from the bit's centre, in bits. Spots are
-// nearly round and off-centre. Their radii are 0.35 to 0.9 times `wicked`: pores draw the water outwards, so a spot
-// is darkest in its middle and its rim is soft. A spot reaches at most one bit from the bit's centre, so four bits
-// around a position are enough. `joined`: how much what is around belongs to other spots, which it grows together with.
+// Water of a spot at an offset from its middle, 1 in the middle of a fresh one. Pores draw it outwards, so that a spot
+// is darkest in its middle and has a soft rim, which is no circle. `shrunk`: part of its radius that is still dark.
 // `blur`: the width over which a pixel blurs the rim, in bits.
-float virga_ground_spot(float is_set, vec2 from, vec4 chance, float wicked, float joined, float blur)
+float virga_ground_spot(vec2 from, vec4 chance, float shrunk, float blur)
 {
-    const float alone = 0.35 + 0.55 * chance.z, oval = 1.0 + 0.8 * (0.9 - alone) * (chance.w - 0.5);
-    const vec2 off = (from - 0.13 * (chance.xy - 0.5)) * vec2(oval, 1.0 / oval);
-    const float radius = mix(alone, 0.9, smoothstep(0.0, 0.6, joined)) * wicked;
-    return is_set * (1.0 - smoothstep(min(0.4 * radius, radius - blur), radius, length(off)));
+    const float far = length(from);
+    const vec2 turn = normalize(chance.yw - 0.4999), to = from / max(far, 1e-4);
+    const vec2 v = vec2(dot(to, turn), to.x * turn.y - to.y * turn.x);
+    const float lobes = 0.12 * (v.x * v.x - v.y * v.y) + 0.08 * v.x * (v.x * v.x - 3.0 * v.y * v.y);
+    const float rim = virga_ground_spot_radius(chance) * (1.0 + lobes) * shrunk;
+    return 1.0 - smoothstep(min(0.4 * rim, rim - blur), rim, far);
 }
 
 // Mean darkness where spots cover this share of the ground: their rims are paler, until they join.
 float virga_ground_spot_mean(float share) { return share * mix(VIRGA_GROUND_SPOT_MEAN, 1.0, share); }
 
 // Part of its radius that a spot still has as it dries. `wet` is the filled fraction of the pores of all the ground
-// around, of which the spots cover `share`. A tenth of the pores under a spot is enough to darken all of it. Below
-// that the water that is left is in the middle, and the rim dries first.
-float virga_ground_spot_wicked(float wet, float share)
+// around, of which spots cover `share`. A tenth of the pores under a spot is enough to darken all of it. Below that the
+// water that is left is in the middle, and the rim dries first. Volume over area grows with a drop's size, so small
+// spots dry before large ones; and some are older than others.
+float virga_ground_spot_wicked(float wet, float share, vec4 chance)
 {
-    return pow(clamp(10.0 * wet / max(share, 1e-3), 0.0, 1.0), 0.25);
+    const float water = virga_ground_spot_radius(chance) * (0.8 + 1.6 * chance.w);
+    return pow(clamp(10.0 * wet * water / max(share, 1e-3), 0.0, 1.0), 0.25);
 }
 
-// Darkness by spots. Where spots of adjacent bits meet it is darker, and bits all around join without a gap. If a pixel
-// is larger than a bit, the result is the mean of the cell. `pixel_cells`: size of a pixel in cells. `wet` as in
-// virga_ground_wetness.
+// Darkness by spots, [0; 1]. Where spots meet there is more water, so it is darker; and where those of all places
+// around are there, none of the ground between them stays dry. If a pixel is larger than a bit, or no spot can be seen,
+// the result is the mean of the cell. `pixel_cells`: size of a pixel in cells. `wet` as in virga_ground_wetness.
 float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells, float wet)
 {
     const ivec2 texel = (low_cell + ivec2(floor(at))) & (cells - 1);
     const int bits = bitCount(texelFetch(spot_map, ivec2(2 * texel.x, texel.y), 0).r) +
                      bitCount(texelFetch(spot_map, ivec2(2 * texel.x + 1, texel.y), 0).r);
-    const float share = float(bits) / 64.0, wicked = virga_ground_spot_wicked(wet, share);
-    const vec2 bit = at * 8.0 - 0.5;
-    const ivec2 low = ivec2(floor(bit));
-    const vec2 t = bit - vec2(low);
-    const float blur = clamp(pixel_cells * 8.0, 0.15, 1.0);
-    vec4 chances[4], sets, parts;
-    for (int i = 0; i < 4; i++) {
-        const ivec2 corner = ivec2(i & 1, i >> 1);
-        sets[i] = virga_ground_spot_bit(spot_map, low_cell, cells, low + corner, chances[i]);
-        const vec2 side = mix(1.0 - t, t, vec2(corner));
-        parts[i] = side.x * side.y;
+    const float mean = virga_ground_spot_mean(float(bits) / 64.0);
+    const float far = clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0), blur = clamp(pixel_cells * 8.0, 0.15, 1.0);
+    const bool shows = wet < VIRGA_GROUND_SPOTS_UNTIL && far < 1.0;
+    const ivec2 own = ivec2(floor(at * 8.0));
+    float water = 0.0, held = 0.0, all = 1e-6;
+    // Software Vulkan leaves a loop as soon as no lane needs it, but runs both sides of a branch.
+    for (int i = 0; i < (shows && wet > 0.0 ? 9 : 0); i++) {
+        const ivec2 bit = own + ivec2(i % 3, i / 3) - 1, inside = bit & 7;
+        const ivec2 cell = (low_cell + (bit >> 3)) & (cells - 1);
+        const uint word = texelFetch(spot_map, ivec2(2 * cell.x + (inside.y >> 2), cell.y), 0).r;
+        const float is_set = float(word >> uint((inside.y & 3) * 8 + inside.x) & 1u);
+        const vec4 chance = virga_ground_spot_chance(8 * cell + inside);
+        const vec2 from = at * 8.0 - vec2(bit) - virga_ground_spot_middle(chance);
+        // The share is that of the spot's half of its cell, wherever it is seen from, so it is cut nowhere.
+        const float wicked = is_set * virga_ground_spot_wicked(wet, float(bitCount(word)) / 32.0, chance);
+        water += is_set * (0.4 + 0.6 * chance.w) * virga_ground_spot(from, chance, max(wicked, 1e-3), blur);
+        const float near = max(1.5 - dot(from, from), 0.0);
+        held += wicked * near;
+        all += near;
     }
-    // How much of what is around belongs to several bits: 0 for a bit by itself, 1 if all four are set.
-    const vec4 held = sets * parts;
-    const float sum = dot(held, vec4(1.0));
-    const float joined = (sum * sum - dot(held, held)) / max(1.0 - dot(parts, parts), 1e-4);
-    float dry = 1.0 - smoothstep(0.5, 1.0, sum * wicked) * smoothstep(0.6, 0.95, joined);
-    for (int i = 0; i < 4; i++)
-        dry *= 1.0 - virga_ground_spot(sets[i], t - vec2(i & 1, i >> 1), chances[i], wicked, joined, blur);
-    const float near = 1.0 - dry;
-    return mix(near, virga_ground_spot_mean(share), clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
+    const float dark = max(min(1.09 * (1.0 - exp(-2.5 * water)), 1.0), smoothstep(0.75, 0.999, held / all));
+    return mix(shows ? dark : mean, mean, far);
 }
 
 // Ground that is steeper than this is a step from one surface to another.
