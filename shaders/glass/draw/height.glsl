@@ -142,6 +142,8 @@ void add_balls(virga_glass_tile_gpu tile)
 #endif
 }
 
+vec2 middle_of(ivec2 texel) { return (vec2(texel) + 0.5) * texel_m(); }
+
 #include "height_film.glsl"
 
 // ---- results of the sums
@@ -204,8 +206,6 @@ uint tile_of_group()
     const uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
     return work_list[min(index, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
 }
-
-vec2 middle_of(ivec2 texel) { return (vec2(texel) + 0.5) * texel_m(); }
 
 // Balls are summed at displaced points.
 void begin_texels(ivec2 first, bool displaced)
@@ -279,6 +279,7 @@ void gather()
         place_texels(first);
     if (WITH_BEADS)
         add_beads(tile);
+    load_sheets(tile * TILE);
     const uint found = or_reduce(write_texels(first)), relief = PAPER ? 0u : before_map & VIRGA_GLASS_HOLDS_RELIEF;
     const bool shown = found >> SHOWN_BIT != 0u;
     if (gl_LocalInvocationIndex != 0u)

@@ -10,17 +10,51 @@ float sheet_m(ivec2 cell)
     return cell == clamped ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
 
+bool interpolates_film() { return look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]); }
+
+#ifndef SHUFFLE
+// The sheet on the cells that a tile's texels lie between: a texel has four of them, and a cell has many texels. Cells
+// are no smaller than texels there, so those of a tile are in SHEETS columns and rows.
+#define SHEETS (TILE + 2)
+shared float sheets[SHEETS * SHEETS];
+ivec2 sheets_low;
+#endif
+
+void load_sheets(ivec2 first)
+{
+#ifndef SHUFFLE
+    if (!FILM || !interpolates_film())
+        return;
+    sheets_low = ivec2(floor(middle_of(first) / look.pane.cell_m - 0.5));
+    const ivec2 span = min(ivec2(texel_m() * float(TILE - 1) / look.pane.cell_m) + 3, ivec2(SHEETS));
+    for (int y = int(gl_LocalInvocationIndex / TILE); y < span.y; y += LANES / TILE)
+        for (int x = int(gl_LocalInvocationIndex % TILE); x < span.x; x += TILE)
+            sheets[x + y * SHEETS] = sheet_m(sheets_low + ivec2(x, y));
+    barrier();
+#endif
+}
+
+// That on a cell, and on the three above and to the right of it.
+vec4 sheets_from(ivec2 cell)
+{
+#ifdef SHUFFLE
+    return vec4(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), sheet_m(cell + ivec2(0, 1)), sheet_m(cell + 1));
+#else
+    const int at = cell.x - sheets_low.x + (cell.y - sheets_low.y) * SHEETS;
+    return vec4(sheets[at], sheets[at + 1], sheets[at + SHEETS], sheets[at + SHEETS + 1]);
+#endif
+}
+
 // Interpolated between the centers of four cells; the nearest cell where cells are smaller than texels.
 float sheet_at(vec2 point)
 {
     if (!FILM)
         return 0.0;
-    const bool interpolate = look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]);
-    const vec2 at = point / look.pane.cell_m - 0.5, low = interpolate ? floor(at) : floor(at + 0.5);
-    const vec2 t = interpolate ? at - low : vec2(0.0);
-    const ivec2 cell = ivec2(low);
-    return mix(mix(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), t.x),
-               mix(sheet_m(cell + ivec2(0, 1)), sheet_m(cell + ivec2(1, 1)), t.x), t.y);
+    const vec2 at = point / look.pane.cell_m - 0.5, low = floor(at), t = at - low;
+    if (!interpolates_film())
+        return sheet_m(ivec2(floor(at + 0.5)));
+    const vec4 four = sheets_from(ivec2(low));
+    return mix(mix(four.x, four.y, t.x), mix(four.z, four.w, t.x), t.y);
 }
 
 // Loads the beads with a shape, of the tile's cells and of those beside it.
