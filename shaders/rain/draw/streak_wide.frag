@@ -19,18 +19,20 @@ layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
 // What a drop shows at (u, v) of its disc: the ray is deflected by 2 (i - t), sin i = r, towards the other side, so the
-// world appears upside down. At the rim, Schlick's Fresnel term reflects the surroundings.
+// world appears upside down. At the rim, Schlick's Fresnel term reflects the surroundings. With sin t = r / 1.333 both
+// cosines are square roots, and those of sums follow: no angle is needed.
 vec3 through_drop(vec2 uv, vec3 d)
 {
-    const float r = min(length(uv), 0.999);
-    const float bend = 2.0 * (asin(r) - asin(r / 1.333));
+    const float r = min(length(uv), 0.999), sin_t = r / 1.333;
+    const float cos_i = sqrt(1.0 - r * r), cos_t = sqrt(1.0 - sin_t * sin_t);
+    const float cos_half = cos_i * cos_t + r * sin_t, sin_half = r * cos_t - cos_i * sin_t; // of i - t
     const vec3 side = normalize(to_vec(view.right)) * uv.x + normalize(to_vec(view.up)) * uv.y;
     const vec3 out_of = r > 1e-3 ? side / r : vec3(0.0);
-    const float fresnel = 0.0204 + 0.9796 * pow(1.0 - sqrt(1.0 - r * r), 5.0);
-    const float reflected = 3.14159265 - 2.0 * asin(r);
-    const vec3 refraction = environment(d * cos(bend) - out_of * sin(bend), vec2(1.0));
-    const vec3 reflection = environment(d * cos(reflected) + out_of * sin(reflected), vec2(1.0));
-    return mix(refraction, reflection, fresnel);
+    const float grazing = 1.0 - cos_i, grazing2 = grazing * grazing;
+    const float fresnel = 0.0204 + 0.9796 * grazing2 * grazing2 * grazing;
+    const vec3 refracted = d * (1.0 - 2.0 * sin_half * sin_half) - out_of * (2.0 * sin_half * cos_half);
+    const vec3 reflected = d * (2.0 * r * r - 1.0) + out_of * (2.0 * r * cos_i); // by pi - 2 i
+    return mix(environment(refracted, vec2(1.0)), environment(reflected, vec2(1.0)), fresnel);
 }
 
 // The light at a pixel is the mean over the height of the drop that passes it. Above and below the middle the
