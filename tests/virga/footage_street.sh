@@ -19,7 +19,8 @@ if grep -q 'built without OpenImageIO' "$work/log"; then
     echo "skipped: built without OpenImageIO"
     exit 77
 fi
-street wanted --layers rain,depth --set rain.haze=0
+# A panorama's light has nothing that hides it.
+street wanted --layers rain,depth --set rain.haze=0 --set environment.around=0
 
 # Metres as numbers of 1/256 m, 0 where there is nothing: the sky, at infinity, is clamped and taken out.
 oiiotool "$work/plate/frame.0001.exr" --ch Z --clamp:min=0:max=300 -d float -o "$work/z.exr" &&

@@ -98,6 +98,7 @@ typedef struct shot {
     bool eye_free;                     /* (live) the free camera is in use */
     bool focus_picked;                 /* (live) the user has picked a focus, which replaces that of the scene: */
     double picked_inv_m;               /* (live) 1 / its view depth; 0: infinity */
+    struct shot_place *place;          /* the light of the camera's place; NULL: that of the environment */
     struct shot_lens *lens;            /* blurs sub-frames by depth; NULL: none does */
     char warning[512];                 /* newest line that the library logged as warning or error */
     bool input_wrong;                  /* opening failed because of the input, not because of the machine */

@@ -150,7 +150,8 @@ static bool build(host_device *device, const panorama *source, host_environment 
         return host_fail(error, error_size, "environment: out of memory");
     float mean[3];
     panorama_mean(&light, mean);
-    panorama_clamp(&light, SUN_LIMIT * (0.2126f * mean[0] + 0.7152f * mean[1] + 0.0722f * mean[2]));
+    environment->brightest = SUN_LIMIT * (0.2126f * mean[0] + 0.7152f * mean[1] + 0.0722f * mean[2]);
+    panorama_clamp(&light, environment->brightest);
     panorama_project(&light, environment->rotation, environment->sh);
     bool ok = make_reflection(device, &light, &environment->reflection, error, error_size);
     panorama_free(&light);

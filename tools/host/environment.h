@@ -25,6 +25,7 @@ typedef struct host_environment {
     /* radiance as real orthonormal spherical harmonics to degree 2, in the world: 1, y, z, x, xy, yz, zz, xz, xx-yy.
      * Without the sun: pixels are clamped to 32 times the mean */
     float sh[9][3];
+    float brightest;       /* radiance to which pixels are clamped for them */
     host_image sky;        /* the panorama; small ones are upsampled */
     host_image reflection; /* 3D: the panorama blurred by GGX lobes, with roughness along depth; also without the sun */
 } host_environment;

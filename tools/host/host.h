@@ -31,6 +31,7 @@
 #include "passes.h"
 #include "pipeline.h"
 #include "renderer.h"
+#include "surroundings.h"
 #include "target.h"
 
 #endif

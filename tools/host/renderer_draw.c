@@ -90,6 +90,7 @@ typedef struct drawing {
     VkCommandBuffer cmd;
     VkRenderPass pass; /* of the plate or of the mirror */
     VkPipeline bound;
+    bool still; /* without what moves */
     bool failed;
     char *error;
     size_t error_size;
@@ -159,9 +160,11 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
 static void draw_entries(drawing *d, host_pipeline kind)
 {
     const host_renderer *r = d->renderer;
-    for (uint32_t i = 0; i < r->entry_count; i++)
-        if (!is_mirror(d) || !r->entries[i].mesh->apart)
+    for (uint32_t i = 0; i < r->entry_count; i++) {
+        const host_mesh *mesh = r->entries[i].mesh;
+        if (!(mesh->apart && (is_mirror(d) || d->still)) && !(mesh->moves && d->still))
             draw_entry(d, &r->entries[i], kind);
+    }
 }
 
 static void draw_depth(drawing *d)
@@ -543,5 +546,34 @@ bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
     else
         draw_first(&d, target, camera, shares);
     host_label_end(r->device, cmd);
+    return !d.failed;
+}
+
+bool host_renderer_draw_still(host_renderer *r, VkCommandBuffer cmd, const host_target *target,
+                              const host_camera *camera, bool scene, char *error, size_t error_size)
+{
+    drawing d = {
+        .renderer = r, .cmd = cmd, .pass = target->plate_pass, .still = true, .error = error, .error_size = error_size};
+    struct host_frame_gpu frame;
+    const uint32_t cells = r->ground.cells;
+    const bool has_walls = r->has_walls;
+    r->ground.cells = 0;
+    r->has_walls = false;
+    update_shelter(r, cmd, camera);
+    if (scene)
+        update_skylight(r, cmd, camera);
+    host_renderer_fill_frame(r, target, camera, camera, &frame);
+    record_frame(r, cmd, &frame);
+    host_label_begin(r->device, cmd, "surroundings");
+    bind_frame(r, cmd);
+    host_target_begin_plate(target, cmd);
+    if (scene)
+        draw_scene(&d);
+    else if (bind(&d, HOST_PIPELINE_SKY, true))
+        vkCmdDraw(cmd, 3, 1, 0, 0);
+    host_target_end_plate(target, cmd);
+    host_label_end(r->device, cmd);
+    r->ground.cells = cells;
+    r->has_walls = has_walls;
     return !d.failed;
 }

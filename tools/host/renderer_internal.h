@@ -102,6 +102,11 @@ void host_renderer_place_mirror(host_renderer *renderer, const host_camera *came
 void host_renderer_look_at_mirror(const host_renderer *renderer, const host_camera *camera,
                                   struct host_frame_gpu *frame);
 
+/* renderer_draw.c: into the plate of `target`, the scene or the environment alone. What moves, by itself or with the
+ * camera, is left out; nothing is wet, and the lights are those of the renderer. */
+bool host_renderer_draw_still(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
+                              const host_camera *camera, bool scene, char *error, size_t error_size);
+
 /* renderer_pipelines.c: set layouts and the pipeline layout. */
 bool host_renderer_create_bindings(host_renderer *renderer, char *error, size_t error_size);
 

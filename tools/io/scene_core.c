@@ -28,6 +28,8 @@ static const scene_row environment_rows[] = {
            "radiance of the horizon (where no file is given)"),
     NUMBER(scene_environment, ground, 0, 1e6, "[0.25, 0.24, 0.22]", RESTARTS,
            "radiance from below (where no file is given)"),
+    NUMBER(scene_environment, around, 0, 1, "1", RESTARTS,
+           "how much meshes around the camera hide the sky from drops; 0: not at all"),
 };
 static const scene_group environment_group = SCENE_GROUP(scene_environment, environment_rows);
 

@@ -35,6 +35,7 @@ typedef struct scene_environment {
     double intensity;
     double rotation_deg; /* around +Y, counter-clockwise seen from above */
     double zenith[3], horizon[3], ground[3];
+    double around; /* share of what meshes hide of the environment that drops lack, [0; 1] */
 } scene_environment;
 
 typedef enum scene_light_type { SCENE_LIGHT_POINT, SCENE_LIGHT_SPOT } scene_light_type;

@@ -34,8 +34,11 @@ typedef struct virga_light {
 
 /* All light at a place: a part of settings structs, so it has no size and cookie of its own. */
 typedef struct virga_lighting {
-    /* Radiance of the sky and the scene around (RGB) as spherical harmonics of degree 2, in the real orthonormal basis
-     * and in the order of virga/shared/sh.h. Default: grey, 0.5 above and 0.1 below. */
+    /* Radiance of all that is around the drops (RGB) as spherical harmonics of degree 2, in the real orthonormal basis
+     * and in the order of virga/shared/sh.h: of the sky where it is seen, else of what hides it. One place stands for
+     * all drops; take the camera's, and let it change smoothly. Between houses, drops with the light of the sky alone
+     * are up to twice too bright. Leave out what is in `lights`. virga/environment.h finds it from a cube map of the
+     * scene. Default: the open, grey, 0.5 above and 0.1 below. */
     float environment_sh[9][3];
 
     virga_light lights[VIRGA_MAX_LIGHTS];

@@ -4,6 +4,7 @@
 #include "shot/checkpoint.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
+#include "shot/place.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,11 @@ static bool follow_scene(shot *s, char *error, size_t error_size)
         s->path.far_m = 2 * s->path.near_m; /* until the other of the two has been changed as well */
     shot_load_lights(s);
     return true;
+}
+
+bool shot_live_light(shot *s, double dt_s, char *error, size_t error_size)
+{
+    return shot_find_light(s, s->camera_time_s + (s->began ? dt_s : 0), error, error_size);
 }
 
 bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *camera, char *error, size_t error_size)
@@ -91,8 +97,8 @@ static bool step_ahead(shot *s, char *error, size_t error_size)
     const double fps = s->scene->frames.fps, now = s->camera_time_s * fps;
     const double next = s->began ? floor(now + 1e-6) + 1 : now, time_s = s->began ? next / fps : s->camera_time_s;
     const double dt_s = !s->began ? 0 : next - now > 1 - 1e-6 ? 1 / fps : (next - now) / fps;
-    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_time(s, cmd, time_s, dt_s, error, error_size) ||
-        !host_submit(&s->device, error, error_size))
+    if (!shot_find_light(s, time_s, error, error_size) || !shot_begin(s, &cmd, error, error_size) ||
+        !shot_record_time(s, cmd, time_s, dt_s, error, error_size) || !host_submit(&s->device, error, error_size))
         return false;
     s->began = true;
     return true;

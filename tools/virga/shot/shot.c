@@ -6,6 +6,7 @@
 #include "shot/distort.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
+#include "shot/place.h"
 #include "shot/plate.h"
 #include "shot/plate_ground.h"
 
@@ -161,12 +162,14 @@ bool shot_open_scene(shot *s, char *error, size_t error_size)
         return false;
     shot_load_lights(s);
     return shot_load_meshes(s, error, error_size) && shot_load_environment(s, error, error_size) &&
-           shot_open_effects(s, error, error_size) && shot_apply_settings(s, 0, error, error_size) &&
-           shot_check_focus(s, error, error_size) && shot_open_lens(s, error, error_size);
+           shot_open_place(s, error, error_size) && shot_open_effects(s, error, error_size) &&
+           shot_apply_settings(s, 0, error, error_size) && shot_check_focus(s, error, error_size) &&
+           shot_open_lens(s, error, error_size);
 }
 
 void shot_close_scene(shot *s)
 {
+    shot_close_place(s);
     host_renderer_destroy(&s->renderer);
     shot_close_lens(s);
     shot_close_effects(s);
@@ -261,8 +264,8 @@ static bool record_step(shot *s, VkCommandBuffer cmd, double time_s, char *error
 static bool step_to(shot *s, double time_s, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
-    return shot_begin(s, &cmd, error, error_size) && record_step(s, cmd, time_s, error, error_size) &&
-           host_submit(&s->device, error, error_size);
+    return shot_find_light(s, time_s, error, error_size) && shot_begin(s, &cmd, error, error_size) &&
+           record_step(s, cmd, time_s, error, error_size) && host_submit(&s->device, error, error_size);
 }
 
 /* After the step of every frame whose number, counted from the first, is a multiple; and after the pre-roll. */

@@ -32,6 +32,9 @@ bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t
 /* Begins a frame of the device and of the library. */
 bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size);
 
+/* Finds the light of the place where the camera will be in `dt_s`. Before shot_begin. */
+bool shot_live_light(shot *s, double dt_s, char *error, size_t error_size);
+
 /* Records that `dt_s` of time (0: none) passes, and the picture, into s->target. The outputs but color and depth are in
  * VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL then. Begun by shot_begin, submitted by the caller. */
 bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *camera, char *error, size_t error_size);

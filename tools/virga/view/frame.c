@@ -201,7 +201,8 @@ static bool draw(viewer *v, double wall_s)
     view_focus_move(v, shown.area, v->script ? 1 / v->scene->frames.fps : wall_s);
     shown.mode = view_mode_items(&v->shot, v->mode) ? v->mode : 0;
     shown.item = v->item;
-    if (!shot_begin(&v->shot, &cmd, v->error, sizeof v->error) || !record(v, cmd, dt_s, &shown) ||
+    if (!shot_live_light(&v->shot, dt_s, v->error, sizeof v->error) ||
+        !shot_begin(&v->shot, &cmd, v->error, sizeof v->error) || !record(v, cmd, dt_s, &shown) ||
         !view_window_present(&v->window, v->error, sizeof v->error))
         return false;
     v->frame++;
