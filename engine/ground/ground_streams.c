@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#define TILE_BYTES ((VkDeviceSize)4 * STREAM_TABLE_SIDE * STREAM_TABLE_SIDE)
+#define TILE_BYTES ((VkDeviceSize)4 * VIRGA_STREAM_TILE * VIRGA_STREAM_TILE)
 /* A group of waves lasts about as long: bottom and viscosity damp waves of 16 to 64 mm on 3 to 10 mm of water at 0.2 to
  * 0.6 / s, and eddies on the bed live for some depths over the speed of its shear, 5 mm / (15 mm/s). */
 #define PERIOD_S  1.6
@@ -45,7 +45,7 @@ virga_result ground_streams_create(virga_context *context, const virga_offscreen
                                    virga_pipeline_group *group, ground_streams *streams)
 {
     virga_result result = VIRGA_OK;
-    TRY(virga_image_create(context, VK_FORMAT_R8G8B8A8_UNORM, (VkExtent2D){STREAM_TABLE_SIDE, STREAM_TABLE_SIDE}, 1,
+    TRY(virga_image_create(context, VK_FORMAT_R8G8B8A8_UNORM, (VkExtent2D){VIRGA_STREAM_TILE, VIRGA_STREAM_TILE}, 1,
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
                            "ground.stream_tile", &streams->tile));
     TRY(virga_buffer_create(context, TILE_BYTES, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
@@ -69,7 +69,7 @@ error:
 void ground_streams_upload(virga_context *context, VkCommandBuffer cmd, ground_streams *streams)
 {
     virga_fill_sampled(context, cmd, streams->tile->image, streams->upload->buffer,
-                       (VkExtent2D){STREAM_TABLE_SIDE, STREAM_TABLE_SIDE}, 1);
+                       (VkExtent2D){VIRGA_STREAM_TILE, VIRGA_STREAM_TILE}, 1);
 }
 
 /* The two layers of waves take turns: each begins where the other is at its highest, and has a weight that is 0 as it

@@ -44,10 +44,38 @@ static uint8_t to_byte(float slope)
     return (uint8_t)(128 + (int)floor(127 * share + 0.5));
 }
 
+/* Of the modes of one m and one surface, in a row of the picture: the sums of exp(i (2 pi n y + phase)), and of n times
+ * that. */
+typedef struct row_sums {
+    float real, imaginary, real_n, imaginary_n;
+} row_sums;
+
 /* Phases within the picture are whole parts of a turn, of which there are as many as texels. */
-void stream_table_fill(uint8_t texels[STREAM_TABLE_SIDE][STREAM_TABLE_SIDE][4])
+static void sum_row(const stream_mode *modes, int count, const float *cosines, const float *sines, int y,
+                    row_sums sums[MOST][2])
+{
+    memset(sums, 0, MOST * sizeof *sums);
+    for (int i = 0; i < count; i++) {
+        const stream_mode *mode = &modes[i];
+        const int turn = (mode->n * y) & (VIRGA_STREAM_TILE - 1);
+        for (int surface = 0; surface < 2; surface++) {
+            const float c = cosines[turn] * mode->cosine[surface] - sines[turn] * mode->sine[surface];
+            const float s = sines[turn] * mode->cosine[surface] + cosines[turn] * mode->sine[surface];
+            row_sums *sum = &sums[mode->m][surface];
+            sum->real += c;
+            sum->imaginary += s;
+            sum->real_n += (float)mode->n * c;
+            sum->imaginary_n += (float)mode->n * s;
+        }
+    }
+}
+
+/* The slope of cos(2 pi (m x + n y) + phase) is -2 pi (m, n) times its sine, the imaginary part of
+ * exp(i 2 pi m x) exp(i (2 pi n y + phase)). */
+void stream_table_fill(uint8_t texels[VIRGA_STREAM_TILE][VIRGA_STREAM_TILE][4])
 {
     stream_mode modes[MAX_WAVES];
+    row_sums sums[MOST][2];
     float cosines[VIRGA_STREAM_TILE], sines[VIRGA_STREAM_TILE];
     const int count = find_modes(modes);
     const float amplitude = (float)sqrt(2.0 / count);
@@ -55,19 +83,20 @@ void stream_table_fill(uint8_t texels[STREAM_TABLE_SIDE][STREAM_TABLE_SIDE][4])
         cosines[i] = (float)cos(TAU * i / VIRGA_STREAM_TILE);
         sines[i] = (float)sin(TAU * i / VIRGA_STREAM_TILE);
     }
-    for (int y = 0; y < STREAM_TABLE_SIDE; y++)
-        for (int x = 0; x < STREAM_TABLE_SIDE; x++) {
+    for (int y = 0; y < VIRGA_STREAM_TILE; y++) {
+        sum_row(modes, count, cosines, sines, y, sums);
+        for (int x = 0; x < VIRGA_STREAM_TILE; x++) {
             float slopes[4] = {0};
-            for (int i = 0; i < count; i++) {
-                const stream_mode *mode = &modes[i];
-                const int turn = (mode->m * x + mode->n * y) & (VIRGA_STREAM_TILE - 1);
+            for (int m = 0; m < MOST; m++) {
+                const int turn = (m * x) & (VIRGA_STREAM_TILE - 1);
                 for (int surface = 0; surface < 2; surface++) {
-                    const float falls = sines[turn] * mode->cosine[surface] + cosines[turn] * mode->sine[surface];
-                    slopes[2 * surface] -= (float)mode->m * falls;
-                    slopes[2 * surface + 1] -= (float)mode->n * falls;
+                    const row_sums *sum = &sums[m][surface];
+                    slopes[2 * surface] -= (float)m * (sines[turn] * sum->real + cosines[turn] * sum->imaginary);
+                    slopes[2 * surface + 1] -= sines[turn] * sum->real_n + cosines[turn] * sum->imaginary_n;
                 }
             }
             for (int i = 0; i < 4; i++)
                 texels[y][x][i] = to_byte((float)TAU * amplitude * slopes[i]);
         }
+    }
 }

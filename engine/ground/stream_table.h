@@ -7,9 +7,6 @@
 
 #include <virga/shared/ground_gpu.h>
 
-/* Texels along the picture's sides: behind the last ones are the first ones again, so that it can be filtered. */
-#define STREAM_TABLE_SIDE (VIRGA_STREAM_TILE + 1)
-
 /* Fills `texels`: for each, the slopes of two surfaces A and B along x and y, as 128 + 127 slope / TILE_SLOPE. A side
  * of the picture has the length 1, and both surfaces a standard deviation of 1.
  *
@@ -20,6 +17,6 @@
  *     a cos(p) cos(w t) + b cos(q) sin(w t),  p and q the phase of a wave in A and B,
  *
  * is the sum of one that goes forward and one that goes back, of independent heights. Runs in about 0.02 s. */
-void stream_table_fill(uint8_t texels[STREAM_TABLE_SIDE][STREAM_TABLE_SIDE][4]);
+void stream_table_fill(uint8_t texels[VIRGA_STREAM_TILE][VIRGA_STREAM_TILE][4]);
 
 #endif

@@ -24,7 +24,12 @@ layout(local_size_x = BLOCK * BLOCK) in;
 #define SHOWN_FROM 5e-5
 #define SHOWN_ALL  2e-4
 
-shared uint any_waves;
+// Octaves of less than 2 % of a cell's variance are left out, those of 5 % and more drawn as they are. Each costs the
+// same time.
+#define OCTAVE_FROM 0.02
+#define OCTAVE_ALL  0.05
+
+shared uint any_octaves;
 
 // Ticks of this step.
 uint new_ticks() { return tick.tick > 0u ? tick.tick_in_step + 1u : 0u; }
@@ -34,7 +39,7 @@ float make_waves(inout virga_stream_gpu stream, uint material)
 {
     const float manning = 1.0 / tick.soils[min(material, uint(VIRGA_GROUND_MATERIALS - 1))].inv_manning;
     const float mean_m_s = MEAN_SHARE * length(vec2(stream.flow[0], stream.flow[1]));
-    float variance = 0.0;
+    float variance = 0.0, drawn = 0.0, part[VIRGA_STREAM_OCTAVES];
     for (int i = 0; i < VIRGA_STREAM_OCTAVES; i++) {
         const StreamWave wave = stream_wave(i, stream.depth_m, mean_m_s, manning);
         const float k = stream_number(i), blur = k * 0.5 * tick.stream_texel_m;
@@ -44,11 +49,14 @@ float make_waves(inout virga_stream_gpu stream, uint material)
         stream.standing_m[i] = wave.standing_m * exp(-0.5 * blur * blur);
         stream.height_m[i] = wave.height_m * exp(-0.5 * blur * blur);
         stream.turn_rad_s[i] = wave.turn_rad_s;
+        part[i] = k * k * (stream.standing_m[i] * stream.standing_m[i] + stream.height_m[i] * stream.height_m[i]);
+        drawn += part[i];
     }
     const float shown = smoothstep(SHOWN_FROM, SHOWN_ALL, variance);
     for (int i = 0; i < VIRGA_STREAM_OCTAVES; i++) {
-        stream.standing_m[i] *= shown;
-        stream.height_m[i] *= shown;
+        const float share = shown * smoothstep(OCTAVE_FROM, OCTAVE_ALL, part[i] / max(drawn, 1e-12));
+        stream.standing_m[i] *= share;
+        stream.height_m[i] *= share;
     }
     return variance * shown * shown;
 }
@@ -82,7 +90,7 @@ void main()
     const ivec2 cell = ivec2(tick.stream_low[0], tick.stream_low[1]) + block * BLOCK + inside;
     const uint cell_index = index_of_cell(cell), index = stream_index(cell);
     if (gl_LocalInvocationIndex == 0u)
-        any_waves = 0u;
+        any_octaves = 0u;
     barrier();
     float depth_m;
     uint material;
@@ -91,8 +99,11 @@ void main()
     follow(stream, cell, flow, depth_m);
     const float variance = make_waves(stream, material);
     streams[index] = stream;
-    if (variance > 0.0)
-        atomicOr(any_waves, 1u);
+    uint octaves = 0u;
+    for (int i = 0; i < VIRGA_STREAM_OCTAVES; i++)
+        octaves |= uint(stream.standing_m[i] + stream.height_m[i] > 0.0) << i;
+    if (octaves != 0u)
+        atomicOr(any_octaves, octaves);
     // Beside the variance that drops bring, which map.comp calms: as much as it takes away from this in the step.
     if (cell_index != NO_CELL && variance > 0.0) {
         const float step_s = float(new_ticks()) * tick.tick_s;
@@ -102,5 +113,5 @@ void main()
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u)
-        streams_head.shown[gl_WorkGroupID.y * tick.stream_blocks + gl_WorkGroupID.x] = any_waves;
+        streams_head.shown[gl_WorkGroupID.y * tick.stream_blocks + gl_WorkGroupID.x] = any_octaves;
 }

@@ -15,16 +15,19 @@ layout(location = 1) noperspective out vec4 moved_m;
 layout(location = 2) noperspective out vec3 height_m;
 layout(location = 3) noperspective out vec3 turn_rad_s;
 layout(location = 4) noperspective out vec3 standing_m;
+layout(location = 5) flat out uint octaves; // bits of those that the block has
 
 void main()
 {
-    const uint number = streams_head.list[gl_InstanceIndex], square = uint(gl_VertexIndex) / 6u;
+    const uint entry = streams_head.list[gl_InstanceIndex], number = entry & 0xffffu;
+    const uint square = uint(gl_VertexIndex) / 6u;
     const uint corner = uint(gl_VertexIndex) % 6u;
     const uvec2 side = uvec2(corner & 1u, corner == 0u || corner == 1u || corner == 5u ? 0u : 1u);
     const uvec2 block = uvec2(number % tick.stream_blocks, number / tick.stream_blocks);
     const uvec2 inside = uvec2(square % VIRGA_STREAM_BLOCK, square / VIRGA_STREAM_BLOCK) + side;
     const ivec2 cell = ivec2(tick.stream_low[0], tick.stream_low[1]) + ivec2(block * VIRGA_STREAM_BLOCK + inside);
     const virga_stream_gpu stream = streams[stream_index(cell)];
+    octaves = entry >> 16;
     at_m = (vec2(cell - ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) + 0.5) * tick.cell_m;
     moved_m = vec4(stream.moved_m[0], stream.moved_m[1], stream.moved_m[2], stream.moved_m[3]);
     standing_m = vec3(stream.standing_m[0], stream.standing_m[1], stream.standing_m[2]);

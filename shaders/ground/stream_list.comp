@@ -11,14 +11,14 @@
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 
-// A block is drawn from the middles of its cells to those of the next ones, which may be in other blocks.
-bool is_drawn(uint number)
+// Octaves of a block. It is drawn from the middles of its cells to those of the next ones, also of other blocks.
+uint drawn_octaves(uint number)
 {
     const uint side = tick.stream_blocks, x = number % side, y = number / side;
     if (x + 1u >= side || y + 1u >= side)
-        return false;
-    return (streams_head.shown[number] | streams_head.shown[number + 1u] | streams_head.shown[number + side] |
-            streams_head.shown[number + side + 1u]) != 0u;
+        return 0u;
+    return streams_head.shown[number] | streams_head.shown[number + 1u] | streams_head.shown[number + side] |
+           streams_head.shown[number + side + 1u];
 }
 
 void main()
@@ -28,12 +28,14 @@ void main()
     const uint begin = min(lane * run, count), end = min(begin + run, count);
     uint own = 0u;
     for (uint i = begin; i < end; i++)
-        own += uint(is_drawn(i));
+        own += uint(drawn_octaves(i) != 0u);
     uvec2 all;
     uint next = scan_group(uvec2(own, 0u), all).x;
-    for (uint i = begin; i < end; i++)
-        if (is_drawn(i))
-            streams_head.list[next++] = i;
+    for (uint i = begin; i < end; i++) {
+        const uint octaves = drawn_octaves(i);
+        if (octaves != 0u)
+            streams_head.list[next++] = i | octaves << 16;
+    }
     if (lane == 0u) {
         streams_head.vertices = 6u * VIRGA_STREAM_BLOCK * VIRGA_STREAM_BLOCK;
         streams_head.blocks = all.x;

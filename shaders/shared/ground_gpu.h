@@ -40,7 +40,7 @@ typedef struct virga_streams_gpu virga_streams_gpu;
 #define VIRGA_STREAM_TURN_1     -0.0292, 0.999574
 #define VIRGA_STREAM_TURN_2     -0.970958, 0.239249
 #define VIRGA_STREAM_LAYERS     2     /* of waves that are carried along and renewed by turns */
-#define VIRGA_STREAM_TILE       128   /* texels along the side of a picture of waves */
+#define VIRGA_STREAM_TILE       256   /* texels along the side of a picture of waves */
 #define VIRGA_STREAM_TILE_WAVES 8.3   /* wavelengths along that side */
 #define VIRGA_STREAM_TILE_SLOPE 160.0 /* largest slope in it, where a side is as long as a wave is high: 127 of 128 */
 #define VIRGA_STREAM_BLOCK      4     /* cells along the side of the blocks in which they are drawn */
@@ -206,8 +206,8 @@ struct virga_streams_gpu {
     uint vertices;                   /* of a block */
     uint blocks;                     /* in the list */
     uint first[2];                   /* 0 */
-    uint shown[VIRGA_STREAM_BLOCKS]; /* 1: some cell of the block has waves; by rows of stream_blocks */
-    uint list[VIRGA_STREAM_BLOCKS];  /* their numbers */
+    uint shown[VIRGA_STREAM_BLOCKS]; /* bits of the octaves that some cell of the block has; by rows of stream_blocks */
+    uint list[VIRGA_STREAM_BLOCKS];  /* their numbers, and the octaves that are drawn: number | bits << 16 */
 };
 
 /* A 64-bit count of water (nl). */

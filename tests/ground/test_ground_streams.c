@@ -138,6 +138,22 @@ static double shown_of(double h, double mean_m_s)
     return share * share * (3 - 2 * share);
 }
 
+/* Share of an octave's heights that is drawn, by its part of the variance that the map can show: the least are left
+ * out. */
+static double part_of(int octave, double h, double mean_m_s)
+{
+    double all = 0, own = 0, heights[2];
+    for (int i = 0; i < VIRGA_STREAM_OCTAVES; i++) {
+        heights_of(i, h, mean_m_s, heights);
+        const double k = TAU / lengths_m[i], blur = exp(-0.5 * pow(k * TEXEL / 2, 2));
+        const double variance = pow(k * blur, 2) * (pow(heights[0], 2) + pow(heights[1], 2));
+        all += variance;
+        own = i == octave ? variance : own;
+    }
+    const double share = fmin(fmax((own / all - 0.02) / 0.03, 0), 1);
+    return share * share * (3 - 2 * share);
+}
+
 static void check_waves(double fall, double mm)
 {
     begin(fall, mm, 1);
@@ -151,7 +167,8 @@ static void check_waves(double fall, double mm)
     const double shown = shown_of((double)found.depth_m, 0.85 * (double)found.flow[0]);
     assert_true(shown > 0.02);
     for (int i = 0; i < VIRGA_STREAM_OCTAVES; i++) {
-        const double blurred = shown * exp(-0.5 * pow(TAU / lengths_m[i] * TEXEL / 2, 2));
+        const double blurred = shown * exp(-0.5 * pow(TAU / lengths_m[i] * TEXEL / 2, 2)) *
+                               part_of(i, (double)found.depth_m, 0.85 * (double)found.flow[0]);
         double heights[2];
         /* By the speed that it has found: where water is but a little faster than the waves, a hundredth is much. */
         heights_of(i, (double)found.depth_m, 0.85 * (double)found.flow[0], heights);
@@ -308,13 +325,22 @@ static double tile_slope(uint8_t byte)
 static void test_the_picture_of_waves_is_of_one_length_and_has_no_seam(void **state)
 {
     (void)state;
-    static uint8_t texels[STREAM_TABLE_SIDE][STREAM_TABLE_SIDE][4];
+    static uint8_t texels[VIRGA_STREAM_TILE][VIRGA_STREAM_TILE][4];
     double squares[4] = {0}, together = 0;
     stream_table_fill(texels);
-    for (int i = 0; i < STREAM_TABLE_SIDE; i++) {
-        assert_memory_equal(texels[i][0], texels[i][VIRGA_STREAM_TILE], sizeof texels[i][0]);
-        assert_memory_equal(texels[0][i], texels[VIRGA_STREAM_TILE][i], sizeof texels[0][i]);
+    /* From its last texels to its first ones it changes as much as between any others. */
+    const int last = VIRGA_STREAM_TILE - 1;
+    double seam[2] = {0}, inside[2] = {0};
+    for (int i = 0; i < VIRGA_STREAM_TILE; i++) {
+        seam[0] += pow(tile_slope(texels[i][0][0]) - tile_slope(texels[i][last][0]), 2);
+        seam[1] += pow(tile_slope(texels[0][i][0]) - tile_slope(texels[last][i][0]), 2);
+        for (int k = 1; k < VIRGA_STREAM_TILE; k++) {
+            inside[0] += pow(tile_slope(texels[i][k][0]) - tile_slope(texels[i][k - 1][0]), 2) / last;
+            inside[1] += pow(tile_slope(texels[k][i][0]) - tile_slope(texels[k - 1][i][0]), 2) / last;
+        }
     }
+    for (int axis = 0; axis < 2; axis++)
+        assert_true(seam[axis] < 2 * inside[axis]);
     for (int y = 0; y < VIRGA_STREAM_TILE; y++)
         for (int x = 0; x < VIRGA_STREAM_TILE; x++) {
             for (int i = 0; i < 4; i++)
