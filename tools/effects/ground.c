@@ -50,7 +50,7 @@ static const scene_row ground_rows[] = {
            "rain of that depth has gathered in hollows before the first frame"),
     WHOLE(scene_ground, contact_droplets, 0, 64, "12", LIVE,
           "droplets at most that a wheel throws out of a cell in a tick; 0: none"),
-    NUMBER(scene_ground, stream_waves, 0, 4, "0", LIVE,
+    NUMBER(scene_ground, stream_waves, 0, 4, "1", LIVE,
            "height of the waves on water that runs; 1: as they are, 0: none, and no cost"),
     SWITCH(scene_ground, contact_shade, "true", LIVE,
            "wet ground is darker under cars and at the foot of what stands on it"),

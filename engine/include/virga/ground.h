@@ -142,8 +142,8 @@ typedef struct virga_ground_settings {
 
     /* [0; 4] how high the waves are that running water has in the ripple map: those over the stones of its bed and over
      * its own turbulence, by its depth and speed. 1: as they are. 0: none, and no cost. Costs a pass over the cells of
-     * the ripple map's area, and a draw of those that have such waves: as much as the rings of heavy rain where a whole
-     * road runs. Default 0. */
+     * the ripple map's area, and a draw of those that have such waves, by how many lengths of waves they have: half to
+     * all of what the rings of heavy rain cost, where a whole road runs. Default 1. */
     float stream_waves;
 
     /* Sums the water of all cells in each step, for the statistics. Costs one pass over all cells. Default true. */
