@@ -47,6 +47,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, min_width_px, 0.5, 4, 1, .look = true),
     SETTING(FLOAT, soft_m, 0, 1, 0.002, .look = true),
     SETTING(FLOAT, parts_px, 0.5, 10000, 1.3, .look = true),
+    SETTING(FLOAT, hole_um, 0, 200, 25, .look = true),
     SETTING(FLOAT, near_fade_m, 0, 5, 0.05, .look = true),
 };
 

@@ -56,7 +56,8 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .lines = splash->base.context->lines,
                                         .motion = virga_effect_wants_motion(&splash->base),
                                         .handed = handedness(out->view.clip_from_rel),
-                                        .parts_px = settings->parts_px};
+                                        .parts_px = settings->parts_px,
+                                        .hole_m = 1e-6f * settings->hole_um};
 }
 
 /* Lists the visible sprites and sheets. Both lists are made in the same passes. */

@@ -55,8 +55,10 @@ struct virga_splash_gpu {
     float life_s;    /* s, lifetime */
     /* two half floats: velocity in x and z (m/s) that the drop's direction adds to its piles, so that they lean */
     uint lean;
-    uint kind; /* model, material and state as in VIRGA_DROPLET_...; number of droplets from bit 16 on */
-    uint id;   /* of the drop */
+    /* model, material and state as in VIRGA_DROPLET_...; bits 16 to 23: number of droplets; 24 to 31: their water over
+     * that of the crown, in units of 1 / 256 */
+    uint kind;
+    uint id; /* of the drop */
 };
 
 #ifndef VIRGA_GLSL

@@ -159,6 +159,7 @@ struct virga_splash_look_gpu {
     uint motion;    /* 1: motion vectors are written after the sprites, one vec4 each: of head and tail (px) */
     float handed;   /* 1, or -1 if the picture is mirrored: the winding of front faces */
     float parts_px; /* min half width of a puff that shows its parts */
+    float hole_m;   /* m, thickness of a crown's wall below which holes open; 0: none do */
 };
 
 /* A sprite: a long, thin shape in the picture, 64 bytes. It is a droplet in motion, a pile, or a distant splash (puff).
@@ -215,7 +216,7 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_PYRAMIDS 10
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 52);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 164 + 64 * VIRGA_SPLASH_PANES);

@@ -66,6 +66,7 @@ static void splashes(void **state)
     SAME(min_width_px);
     SAME(soft_m);
     SAME(parts_px);
+    SAME(hole_um);
     SAME(near_fade_m);
     scene_file_free(scene);
 }

@@ -65,6 +65,8 @@ static const scene_row splash_rows[] = {
     NUMBER(scene_splash, soft_m, 0, 1, "0.002", LIVE, "splashes fade over this depth where they meet geometry"),
     NUMBER(scene_splash, parts_px, 0.5, 10000, "1.3", LIVE,
            "small splashes at least this wide, from the middle, show ring and droplets; smaller ones are spots"),
+    NUMBER(scene_splash, hole_um, 0, 200, "25", LIVE,
+           "um: thickness of a crown's wall below which holes open in it; 0: never"),
     NUMBER(scene_splash, near_fade_m, 0, 5, "0.05", LIVE, "what is nearer to the camera fades out"),
     GROUP(scene_splash, drips, &drip_group, LIVE, "drops that fall from edges"),
 };
@@ -158,6 +160,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.min_width_px = (float)from->min_width_px;
     settings.soft_m = (float)from->soft_m;
     settings.parts_px = (float)from->parts_px;
+    settings.hole_um = (float)from->hole_um;
     settings.near_fade_m = (float)from->near_fade_m;
     settings.air_density = rain.air_density;
     settings.lighting = s->lighting;

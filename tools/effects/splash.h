@@ -37,7 +37,7 @@ typedef struct scene_splash {
     double bounce;
     double pile_max_s, pile_max_m;
     double dot_min_mm;
-    double gain, light_gain, min_width_px, soft_m, near_fade_m, parts_px;
+    double gain, light_gain, min_width_px, soft_m, near_fade_m, parts_px, hole_um;
     scene_splash_drips drips;
 } scene_splash;
 

@@ -179,6 +179,11 @@ typedef struct virga_splash_settings {
      * ring of its foot, and droplets as streaks of the time for which the shutter is open. Smaller ones are spots; all
      * are with a large value. The water covered is the same. Default 1.3. */
     float parts_px;
+
+    /* (film) [0; 200] um: where the wall of a crown gets thinner than about this, holes open in it, grow, and leave
+     * rods and drops. Walls are as thick as their water gives; at their thinnest some 25 um. 0: they stay whole.
+     * Default 25. */
+    float hole_um;
 } virga_splash_settings;
 
 VIRGA_API virga_splash_settings virga_default_splash_settings(void);

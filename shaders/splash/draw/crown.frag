@@ -1,5 +1,5 @@
-// crown.frag - a thin sheet of water, premultiplied. It reflects by Fresnel, hides little of the background, and
-// refracts where it is thick or seen from the edge: at the rim, which is a bead, and at its sides.
+// crown.frag - a sheet of water, premultiplied. A thin film mirrors with its two faces and hides nothing of the
+// background. Rim, fingers and what holes leave are lenses. A disk is a flat drop.
 // One invocation per pixel of a sheet. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -17,7 +17,9 @@ layout(scalar, set = 0, binding = 1) uniform View
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "through.glsl"
-#include "crown_rim.glsl"
+#include "shared/random.h"
+#include "shared/crown_sheet.h"
+#include "crown_water.glsl"
 #include "gpu/temporal.glsl"
 #include "gpu/encode.glsl"
 #ifdef MOTION
@@ -28,47 +30,40 @@ layout(constant_id = 0) const bool HAS_DEPTH = true;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 sheet;
-layout(location = 4) in vec4 rim_data;
+layout(location = 4) in vec4 place;
 layout(location = 5) in vec3 upward;
-layout(location = 6) in vec2 size;
+layout(location = 6) flat in vec4 water;
+layout(location = 7) flat in vec4 parts;
+layout(location = 8) flat in uint random;
 layout(location = 0) out vec4 radiance;
 
-// Distance below the rim (m, along the sheet), and the direction across the rim, out of the sheet.
-struct Rim {
-    float below;
-    vec3 outward;
-};
+#define MAX_ASLANT 0.93 // sine; what is seen along the sheet is not stretched further
 
-Rim rim_of(vec3 n)
+Sheet sheet_here(vec2 away)
 {
-    const vec2 rim = rim_height(rim_data.x, rim_data.y, rim_data.z);
-    const float slope = clamp(rim.y * rim_data.w / size.x, -4.0, 4.0), steep = inversesqrt(1.0 + slope * slope);
-    const vec3 u = normalize(upward), around = cross(u, n);
-    return Rim((rim.x - CROWN_REACH * sheet.x) * rim_data.w * steep, (u - slope * around) * steep);
+    const vec2 aslant = away * min(1.0, MAX_ASLANT / max(length(away), 1e-6));
+    return Sheet(place.z, place.w, water.z, water.w, water.x, water.y, parts.w, parts.x, parts.yz, aslant, random);
 }
 
-// The slope of the wall's face where water streams up into the fingers: a ridge below each finger, and finer ones
-// between, which merge towards the rim. Waves shorter than pixels are left out.
-float ridge_slope()
+// The slope of the film's face (m/m). Water streams up into the fingers, so the film is thicker below each by up to a
+// half: over half of their distance that is a slope of pi / 2 of thickness over distance for each face. It is thick at
+// the foot, where it merges with the water that it rises from. Waves shorter than pixels are left out.
+vec2 film_slope(Sheet s)
 {
-    const float finger = rim_data.x, slow = rim_data.y, up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0);
-    const vec3 waves = vec3(finger, 2.0 * finger + slow + 1.3 * sin(slow + 2.0 * up), 3.0 * finger - slow - 1.1 * up);
-    const vec3 shown = 1.0 - smoothstep(0.6, 1.8, fwidth(finger) * vec3(1.0, 2.0, 3.0));
-    return dot(sin(waves) * shown, vec3(0.3, 0.26, 0.2) * vec3(0.4 + 0.6 * up, 1.0, 1.0 - 0.4 * up));
+    if (s.fingers <= 0.0)
+        return vec2(0.0);
+    const float up = clamp(place.y / s.height, 0.0, 1.0), from_foot = 1.0 - up, wave = s.fingers * place.x;
+    const vec2 waves = vec2(wave, 0.38 * wave + 2.0 * sin(3.0 * up + 0.21 * wave));
+    const vec2 shown = 1.0 - smoothstep(0.6, 1.8, fwidth(wave) * vec2(1.0, 0.4));
+    const float spacing = 6.2831853 / s.fingers * s.radius, thick = virga_crown_profile(up) * s.thick;
+    const float slope = min(1.5707963 * thick / spacing, 0.35), wedge = VIRGA_CROWN_WEDGE * thick / s.height;
+    return vec2(slope * dot(sin(waves) * shown, vec2(0.4 + 1.2 * up, 0.8)),
+                -min(wedge, 0.3) - 0.6 * from_foot * from_foot * from_foot);
 }
 
-// How fast the wall gets thicker upwards (m/m): its foot merges with the water that it rises from, and below the rim it
-// widens into the bead. In between it is thinnest.
-float wedge(float out_of_bead, float below_bead)
-{
-    const float up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0), from_foot = 1.0 - up;
-    const float swells = smoothstep(0.0, 1.0, 1.0 - below_bead) * (1.0 - out_of_bead);
-    return 0.35 * swells - 0.6 * from_foot * from_foot * from_foot;
-}
-
-// The background, refracted by the angle between the wall's faces, as by a prism of water: towards its thick side. The
-// scene's depth gives the distance behind the wall. `lean`: how the normal turns away from the thick side.
-vec3 through_wall(vec3 d, vec3 lean)
+// The background, refracted by the angle between the film's faces, as by a prism of water: towards its thick side. The
+// scene's depth gives the distance behind the film. `lean`: how the normal turns away from the thick side.
+vec3 through_film(vec3 d, vec3 lean)
 {
     if (view.color_given == 0u)
         return around_of(d);
@@ -81,49 +76,79 @@ vec3 through_wall(vec3 d, vec3 lean)
     return scene_at(pixel);
 }
 
+// Light and coverage of a face with that normal.
+struct Shade {
+    vec3 light;
+    float body, moving;
+};
+
+Shade film_shade(vec3 d, vec3 n, vec3 lean)
+{
+    const float cosine = -dot(n, d), face = fresnel(cosine);
+    // A film has two faces: 2 F / (1 + F) with the light that is mirrored between them. Its faces are parallel but for
+    // small slopes, so it shows what is behind it nearly in place. Without the host's picture, the target keeps that.
+    const float mirror = 2.0 * face / (1.0 + face), hides = view.color_given != 0u ? 1.0 : 0.05;
+    // What bends more is bent away from what is close behind.
+    const vec3 far = seen(normalize(d - 0.333 * (lean - d * dot(lean, d))));
+    const vec3 behind = mix(through_film(d, lean), far, smoothstep(0.1, 0.6, length(lean)));
+    return Shade(mirror * around_of(reflect(d, n)) + (1.0 - mirror) * hides * behind,
+                 mirror + (1.0 - mirror) * hides, mirror + (1.0 - mirror) * 0.05);
+}
+
+Shade lens_shade(vec3 d, vec3 n)
+{
+    return Shade(through_ball(d, n - d * dot(n, d)) + lamps(position, d), 1.0, 1.0);
+}
+
+// A flat drop: clear, and round at its edge.
+Shade disk_shade(vec3 d, vec3 n)
+{
+    const float cosine = -dot(n, d), face = fresnel(cosine), mirror = 2.0 * face / (1.0 + face);
+    const float rim = smoothstep(0.7, 1.0, sheet.x), edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
+    const float thick = clamp(0.05 + 0.12 * sheet.x * sheet.x + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
+    const vec3 behind = mix(through_film(d, vec3(0.0)), through_ball(d, (n + d * cosine) * (0.35 + 0.6 * rim)),
+                            max(rim, edge));
+    const float body = mirror + (1.0 - mirror) * thick;
+    return Shade(mirror * around_of(reflect(d, n)) + (1.0 - mirror) * thick * behind + lamps(position, d) * thick, body,
+                 body);
+}
+
+vec3 facing(vec3 n, vec3 d) { return normalize(n - 1.01 * d * max(dot(n, d), 0.0)); }
+
+Shade crown_shade(vec3 d, vec3 n)
+{
+    const vec3 u = normalize(upward), right = normalize(cross(u, normalize(normal)));
+    const Sheet s = sheet_here(vec2(dot(d, right), dot(d, u)));
+    const float pixel_m = length(position) * view.pixel_angle;
+    const Line line = rim_line(s, place.x);
+    const Film film = torn_film(s, line, place.x, place.y, look.hole_m);
+    Bead bead = edge_bead(s, line, place.x, place.y, look.hole_m);
+    bead = join(bead, film.bead, 0.4 * min(bead.radius, film.bead.radius));
+    // What is narrower than a pixel is drawn a pixel wide, and covers less.
+    const float wider = max(0.5 * pixel_m - bead.radius, 0.0), covers = bead.radius / (bead.radius + wider);
+    const float out_m = bead.out_m - wider, in_bead = covers * clamp(0.5 - out_m / pixel_m, 0.0, 1.0);
+    const float in_film = clamp(0.5 + min(film.below_rim, film.beside_hole) / pixel_m, 0.0, 1.0) * (1.0 - in_bead);
+    // A bead is round as seen from here. The film runs into it with a fillet.
+    const float across = clamp(1.0 + out_m / (bead.radius + wider), 0.0, 0.98);
+    const float fillet = clamp(1.0 - max(out_m, 0.0) / (1.5 * bead.radius), 0.0, 1.0);
+    const vec3 outward = normalize(bead.outward.x * right + bead.outward.y * u + 1e-6 * u);
+    const vec3 beside = normalize(outward - d * dot(outward, d) + 1e-6 * u);
+    const vec3 round = facing(beside * across - d * sqrt(1.0 - across * across), d);
+    const vec2 slope = film_slope(s);
+    const vec3 lean = slope.x * right + slope.y * u + 0.7 * fillet * fillet * outward;
+    const Shade lens = lens_shade(d, round), thin = film_shade(d, facing(n + lean, d), lean);
+    return Shade(lens.light * in_bead + thin.light * in_film, lens.body * in_bead + thin.body * in_film,
+                 lens.moving * in_bead + thin.moving * in_film);
+}
+
 void main()
 {
     const vec3 d = normalize(position);
     vec3 n = normalize(normal);
-    const Rim ends = rim_of(n);
     n = dot(n, d) > 0.0 ? -n : n;
-    // 0 where the bead begins, 1 at the rim. It is drawn at least a pixel thick. A disk has no bead.
-    const bool disk = rim_data.w <= 0.0;
-    // Water gathers in the fingers, most of all at their ends, which round into the drops that leave them.
-    const bool has_fingers = !disk && rim_data.z > 0.0;
-    const float finger = 0.5 + 0.5 * cos(rim_data.x), finger2 = finger * finger;
-    const float gathers = has_fingers ? 0.7 + 0.4 * finger2 + 0.5 * finger2 * finger2 * finger2 : 1.0;
-    const float min_bead_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(gathers * size.y, min_bead_m);
-    const float out_of_bead = disk ? 0.0 : clamp(1.0 - ends.below / bead_m, 0.0, 1.0);
-    const float pixel_m = max(fwidth(ends.below), 1e-9),
-                edge_cover = disk ? 1.0 : clamp(ends.below / pixel_m + 0.5, 0.0, 1.0);
-    const float thickens = has_fingers ? wedge(out_of_bead, clamp(0.5 * ends.below / bead_m - 0.5, 0.0, 1.0)) : 0.0;
-    const vec3 lean = ridge_slope() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n)) -
-                      thickens * normalize(upward);
-    n = normalize(n + lean);
-    // The film runs into the bead without an edge; its face is round, as that of a rod at the end of the sheet.
-    const float across = smoothstep(0.15, 1.0, out_of_bead) - 0.6 * out_of_bead * (1.0 - out_of_bead);
-    n = n * sqrt(1.0 - across * across) + ends.outward * across;
-    n = normalize(n - 1.01 * d * max(dot(n, d), 0.0));
-    const float cosine = -dot(n, d), face = fresnel(cosine);
-    // A film has two faces: 2 F / (1 + F) with the light that is mirrored between them. A bead has one.
-    const float mirror = mix(2.0 * face / (1.0 + face), face, disk ? 1.0 : out_of_bead);
-    // Two parallel faces do not refract, so the wall is clear except for its ridges and wedges. The rim is a bead, and
-    // at the sides the view is along the wall.
-    const float bead = smoothstep(0.0, 0.8, out_of_bead) * min(gathers * size.y / bead_m, 1.0);
-    const float rim = disk ? smoothstep(0.7, 1.0, sheet.x) : bead;
-    const float edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
-    const float thick = clamp(0.05 + 0.12 * sheet.x * sheet.x + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
-    const vec3 side = n + d * cosine; // across the line of sight
-    const vec3 behind = mix(through_wall(d, lean), through_ball(d, side * (0.35 + 0.6 * rim)), max(rim, edge));
-    const vec3 glitter = lamps(position, d) * thick;
-    // If the host gives its picture, the wall replaces the background by its refraction, but its motion counts only as
-    // far as it is thick.
-    const float hides = !disk && view.color_given != 0u ? 1.0 : thick;
-    const float body = mirror + (1.0 - mirror) * hides, moving = mirror + (1.0 - mirror) * thick;
-    const vec3 light = mirror * around_of(reflect(d, n)) + (1.0 - mirror) * hides * behind + glitter;
-    const float visible = edge_cover * clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
-    radiance = for_target(vec4(light * visible, body * visible));
-    WRITE_MOTION(motion_from(before), moving * visible);
-    WRITE_REACTIVE(moving * visible, view.reactive_gain);
+    const Shade shade = parts.x < 0.0 ? disk_shade(d, facing(n, d)) : crown_shade(d, n);
+    const float visible = clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
+    radiance = for_target(vec4(shade.light * visible, shade.body * visible));
+    WRITE_MOTION(motion_from(before), shade.moving * visible);
+    WRITE_REACTIVE(shade.moving * visible, view.reactive_gain);
 }

@@ -8,26 +8,32 @@
 #include "splash/state.glsl"
 #include "view.glsl"
 #include "compact.glsl"
-#include "crown_rim.glsl"
+#include "shared/crown_sheet.h"
 #include "gpu/compact_buffers.glsl"
 
 layout(location = 0) out vec3 position; // relative to the camera
 layout(location = 1) out vec3 normal;
 // x: up its height [0; 1]; y: fraction of the time that it is there; z: coverage; w: view depth
 layout(location = 2) out vec4 sheet;
-// x, y: angles of the fingers' wave and of the slow one; z: fingers; w: height (m), 0: a disk
-layout(location = 4) out vec4 rim_data;
+// x: angle; y: height there; z: height of the rim; w: radius there (m)
+layout(location = 4) out vec4 place;
 layout(location = 5) out vec3 upward; // along the sheet
-layout(location = 6) out vec2 size;   // m: x: radius of the rim; y: thickness of the rim
+// See crown_water.glsl: mean thickness of the wall and radius of the rim (m), fraction of its life, and life (s)
+layout(location = 6) flat out vec4 water;
+// x: fingers, < 0: a disk; y, z: sites of holes around and up; w: mean water of a finger (m^3)
+layout(location = 7) flat out vec4 parts;
+layout(location = 8) flat out uint random;
 
 #ifdef MOTION
 layout(location = 3) out vec3 before; // in the previous frame's clip coordinates: x, y, w
 #endif
 
+#define HOLE_SITES 0.9 // distance of places where holes may open, in drops
+
 struct Shape {
     Crown crown;
     vec3 side, across;
-    float height, min_height, fingers, phase; // m: height as drawn, and the lowest while the shutter is open
+    float height, min_height, phase; // m: height as drawn, and the lowest while the shutter is open
 };
 
 // The shape `ago_s` before the time that is drawn.
@@ -45,9 +51,6 @@ Shape shape_of(virga_splash_gpu splash, float ago_s)
     s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0)
                                                : vec3(now.normal.z, 0.0, -now.normal.x));
     s.across = cross(s.side, now.normal);
-    // A droplet that falls back is too slow to make fingers: the collar around it is low.
-    const bool collar = now.model == VIRGA_SPLASH_DOT;
-    s.fingers = collar ? 0.0 : float(clamp(now.droplets, 7u, 11u));
     s.phase = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
     return s;
 }
@@ -61,9 +64,28 @@ vec3 sheet_point(Shape s, float angle, float up)
         return outward * (s.crown.radius * wobble * up) + s.crown.normal * (s.height * (1.0 - up * up));
     }
     // Everywhere as high as the highest finger: the fragment shader cuts the rim out of it.
-    const float radius = s.crown.radius * (0.72 + 0.3 * up * up);
+    const float high = VIRGA_CROWN_REACH * up;
+    const float radius = s.crown.radius * (VIRGA_CROWN_FOOT + VIRGA_CROWN_FLARE * high * high);
     const vec3 leaned = vec3(s.crown.lean.x, 0.0, s.crown.lean.y) * (0.004 * up * up);
-    return outward * radius + s.crown.normal * (s.height * CROWN_REACH * up) + leaned;
+    return outward * radius + s.crown.normal * (s.height * high) + leaned;
+}
+
+// How its water is shared. A droplet that falls back is too slow to make fingers: the collar around it is low.
+void write_water(Crown now, bool disk)
+{
+    const bool collar = now.model == VIRGA_SPLASH_DOT;
+    const float all = virga_crown_water(now.diameter, now.flown), share = clamp(now.share, 0.0, 1.0);
+    const float drops = VIRGA_CROWN_DROPS * 0.5235988 * now.diameter * now.diameter * now.diameter;
+    const float around = 6.2831853 * max(now.radius, 1e-5);
+    const float fingers = 2.0 * floor(0.5 * virga_crown_count(all, now.widest) + 0.5);
+    water.x = virga_crown_thinnest(all, now.widest, now.highest) * virga_crown_thinning(share);
+    water.y = virga_crown_rod(virga_crown_rim(all, share) / around);
+    water.zw = vec2(share, now.life_s);
+    parts.x = disk ? -1.0 : collar ? 0.0 : fingers;
+    const vec2 wall = vec2(6.2831853 * VIRGA_CROWN_MEAN * now.widest, now.highest);
+    parts.yz = max(floor(wall / (HOLE_SITES * now.diameter) + 0.5), vec2(5.0, 3.0));
+    parts.w = virga_crown_fingers(all, share, drops * now.flown, virga_crown_left(share)) / fingers;
+    random = now.random;
 }
 
 #include "gpu/own_view.glsl"
@@ -100,8 +122,10 @@ void main()
     // The upper part is there for the fraction of the time in which the sheet is that high.
     const float min_height = s.min_height / max(s.height, 1e-6);
     const float visible = disk || min_height >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - min_height) + 0.25, 0.0, 1.0);
-    rim_data = vec4(s.fingers * angle + s.phase, 2.0 * angle + 1.7 * s.phase, s.fingers, disk ? 0.0 : s.height);
-    size = vec2(max(s.crown.radius, 1e-5), CROWN_BEAD * now.diameter);
+    const float high = VIRGA_CROWN_REACH * up;
+    place = vec4(angle, s.height * high, max(s.height, 1e-6),
+                 max(s.crown.radius, 1e-5) * (VIRGA_CROWN_FOOT + VIRGA_CROWN_FLARE * high * high));
+    write_water(now, disk);
     const float fade = disk ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
     gl_Position = project(to_mat(view.clip_from_rel), position);
     const bool seen = s.height > 0.0;

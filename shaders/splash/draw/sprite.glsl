@@ -106,8 +106,8 @@ Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
 // A pile narrows from its foot to a neck that is thinner than its droplet; a cone has a wider foot.
 vec2 pile_widths(virga_droplet_gpu droplet, float left)
 {
-    const float foot = is_upright(droplet) ? 8.0 : 2.2;
-    return droplet.diameter_m * vec2(0.7, foot) * (is_upright(droplet) ? 1.0 : sqrt(left));
+    const float foot = is_upright(droplet) ? 4.0 : 2.2, neck = is_upright(droplet) ? 0.95 : 0.7;
+    return droplet.diameter_m * vec2(neck, foot) * (is_upright(droplet) ? 1.0 : sqrt(left));
 }
 
 Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)

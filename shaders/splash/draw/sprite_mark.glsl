@@ -46,7 +46,7 @@ uint[3] droplet_sets()
 // In the film's style by its sheet; in the paper's style by its pyramids, where a crown is large enough.
 bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
 {
-    return is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE ? is_sheet(splash, crown) : splash.kind >> 16 != 0u;
+    return is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE ? is_sheet(splash, crown) : crown.droplets != 0u;
 }
 
 bool on_picture(Crown crown)

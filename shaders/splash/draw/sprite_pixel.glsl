@@ -49,7 +49,7 @@ bool is_cone()
     return shape.y > 4.0 * shape.x;
 }
 
-#define CONE_FOOT 0.25 // of its height
+#define CONE_FOOT 0.12 // of its height
 
 float pile_half_width()
 {

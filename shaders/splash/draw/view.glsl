@@ -74,8 +74,10 @@ struct Crown {
     vec3 center; // relative to the camera
     vec3 normal;
     vec2 lean;
-    float radius, height; // at that time
-    float share;          // fraction of its life
+    float radius, height;  // at that time
+    float widest, highest; // m
+    float share, life_s;   // fraction of its life
+    float flown;           // share of its water that flies away as droplets
     uint model, droplets, random;
     float diameter, weight;
 };
@@ -104,7 +106,8 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     crown.normal = to_vec(splash.normal);
     crown.lean = unpackHalf2x16(splash.lean);
     crown.model = VIRGA_DROPLET_MODEL(splash.kind);
-    crown.droplets = splash.kind >> 16;
+    crown.droplets = splash.kind >> 16 & 255u;
+    crown.flown = float(splash.kind >> 24) / 256.0;
     crown.random = splash.random;
     crown.diameter = splash.diameter_m;
     crown.weight = unpackHalf2x16(splash.depth_weight).y;
@@ -119,6 +122,9 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     }
     const float life = max(crown.model == VIRGA_SPLASH_DOT ? DOT_S : crown_time(highest), 1e-3);
     crown.share = age / life;
+    crown.widest = widest;
+    crown.highest = highest;
+    crown.life_s = life;
     crown.height = age < 0.0 || age > life ? 0.0 : highest * crown_rise(crown.share);
     crown.radius = widest * crown_spread(crown.share);
     if (crown.model == VIRGA_SPLASH_DISK) {

@@ -1,5 +1,7 @@
 // spawn_start.glsl - starts a splash and its droplets from a spawn.
 
+#include "shared/crown_sheet.h"
+
 // The first slots of this tick's splashes, droplets and returns.
 struct Starts {
     uint splash, droplet, returned;
@@ -48,6 +50,14 @@ float splash_life(virga_spawn_gpu spawn)
 // Slope of the surface along x and z.
 vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec2(-50.0), vec2(50.0)); }
 
+// Water of its droplets over that of the crown (crown_sheet.h), in units of 1 / 256.
+uint flown_share(virga_spawn_gpu spawn, uint droplets)
+{
+    const float drop_nl = 0.5235988e12 * spawn.diameter_m * spawn.diameter_m * spawn.diameter_m;
+    const float share = float(spawn.water_nl) / max(VIRGA_CROWN_DROPS * spawn.drops * drop_nl, 1e-6);
+    return droplets > 0u ? uint(256.0 * clamp(share, 0.0, 0.9)) : 0u;
+}
+
 void write_splash(uint index, uint first, virga_spawn_gpu spawn, vec3 position, uint droplets)
 {
     if (index - first >= tick.max_splashes)
@@ -64,7 +74,8 @@ void write_splash(uint index, uint first, virga_spawn_gpu spawn, vec3 position, 
     splash.random = spawn.random;
     splash.life_s = splash_life(spawn);
     splash.lean = halves(lean.x, lean.z);
-    splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16;
+    splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16 |
+                  flown_share(spawn, droplets) << 24;
     splash.id = spawn.id;
     const uvec4 texels[4] = texels_of(splash);
     const uint texel = 4u * (index & (tick.max_splashes - 1u));
