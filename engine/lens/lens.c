@@ -193,7 +193,7 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
     [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields */
     [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},   /* 33 */
-    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},        /* 34 */
+    [LENS_BIND_COARSE] = {SAMPLED, SEEN},            /* 34 */
 };
 
 static const virga_effect_layout layouts[] = {

@@ -155,6 +155,10 @@ float far_reach(gatherer to)
 // `trusted`: the sum of the weights, each times its share of being behind.
 field_sum gather_far(gatherer to, inout float trusted)
 {
+#ifdef FINER_PASS
+    const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
+    finer_nearness = all_nearness = 0.0;
+#endif
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
     const float reach = far_reach(to);
     // What is in blocks is not looked for here, but a texel that is nearly in focus cuts all to its own small circle.
@@ -176,6 +180,12 @@ field_sum gather_far(gatherer to, inout float trusted)
             float weight = gathered * covers_it / disc_area(max(radius, POINT));
             if (NEAR && to.behind) {
                 weight *= nearness(vec2(apart), max(source.a, 0.0));
+#ifdef FINER_PASS
+                const float coarse = coarseness(source.a * float(STEP));
+                weight *= 1.0 - wide * coarse;
+                all_nearness += gathered * nearness(vec2(apart), 0.0);
+                finer_nearness += (1.0 - coarse) * gathered * nearness(vec2(apart), 0.0);
+#endif
                 trusted += weight * gathered;
             }
             sum.scene += weight * vec4(source.rgb, 1.0);
@@ -305,6 +315,24 @@ float share_in_far(gatherer to)
     return HALVED && !COARSE && to.behind ? 1.0 - smoothstep(POINT, 2.0 * POINT, -to.own) : 0.0;
 }
 
+#ifdef FINER_PASS
+// The coarse pass knows nothing within 4 px to 8 px of the edge of a wide near disc, so that what it fills in there is
+// not what is seen beside it. There it is filled in from the finer samples that are not wide, and farther away from the
+// coarse ones. Beside a straight edge, d texels from it, nearness sums up to about 1.3 / d^5: so d is known. A texel of
+// a wide disc behind the focus has the coarse field as well, since draws read between it and those in front of it.
+vec3 fill_of_both(gatherer to, vec3 behind, vec4 filled)
+{
+    const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
+    if (wide == 0.0)
+        return behind;
+    const float apart = pow(1.3 / max(finer_nearness, 1e-6), 0.2);
+    float fine = to.behind ? 1.0 - smoothstep(0.25, 0.75, apart / -to.own) : 0.0; // of how far it looks
+    if (to.behind)
+        fine *= finer_nearness / max(all_nearness, 1e-6); // a blade's far end is behind it, and what is wide much more
+    return mix(behind, mix(coarse_far(to.texel), filled.rgb / max(filled.a, 1e-12), fine), wide);
+}
+#endif
+
 // Both fields of a texel, and the layer on the scene. `reach`: the largest radius that reaches its tile, in front of
 // the focus and behind it. `levels`: that have such light. `known`: what gather_far finds, if is_known.
 void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
@@ -330,6 +358,9 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
     field_sum far = scene_behind(to, own.rgb, fine, trusted);
     // How far what was found is behind it. As the focus moves, what is there becomes so bit by bit.
     const float trust = NEAR && to.behind && far.scene.a > 0.0 ? trusted / far.scene.a : 1.0;
+#ifdef FINER_PASS
+    const vec4 filled = far.scene;
+#endif
     // Of two fields, each has a part of what is near: nothing behind one of them does not make it all.
     if ((COARSE || FINER) && far.scene.a == 0.0)
         far.scene = near.scene.a > 0.0 ? near.scene : vec4(own.rgb, 1.0);
@@ -349,5 +380,8 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
         behind = open > 1e-4 ? (with_far.rgb + (1.0 - near.scene.a) * behind) / open : own.rgb;
         near.scene -= with_far;
     }
+#ifdef FINER_PASS
+    behind = fill_of_both(to, behind, filled);
+#endif
     store(texel, vec4(behind, near_circle), near.scene, on);
 }

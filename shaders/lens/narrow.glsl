@@ -97,6 +97,20 @@ vec4 sample_in(int row, ivec2 texel)
 
 float spread_in(int row, ivec2 texel) { return uintBitsToFloat(kept[row + texel.x].w); }
 
+#ifdef FINER_PASS
+layout(set = 0, binding = 34) uniform sampler2DArray coarse_fields;
+
+float finer_nearness, all_nearness; // of the samples behind a texel: that are not wide, and of all; see fill_of_both
+
+// The coarse far field at a texel.
+vec3 coarse_far(ivec2 texel)
+{
+    const vec2 size = vec2((uvec2(view.columns, view.rows) + 1u) >> 1u);
+    const vec2 at = min(0.5 * (vec2(texel) + 0.5), size - 0.5) / vec2(textureSize(coarse_fields, 0).xy);
+    return textureLod(coarse_fields, vec3(at, VIRGA_LENS_FAR), 0.0).rgb;
+}
+#endif
+
 bool has_near; // circles of confusion from in front of the focus reach the tile
 #define NEAR has_near
 #define ON_SCENE false
@@ -472,14 +486,23 @@ void gather_two(ivec2 texel, vec2 own, float largest, out vec4 sums[2])
 
 bool is_there(ivec2 texel) { return all(lessThan(texel, WORK_SIZE)); }
 
+// FINER: what is behind wide near discs is read across the rim as well.
+void empty(ivec2 texel)
+{
+    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+#ifdef FINER_PASS
+    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), vec4(coarse_far(texel), 0.0));
+#endif
+}
+
 void empty_rim(int pair)
 {
     const ivec2 texel = first_of_pair(pair), in_tile = texel & (TILE - 1);
     const bool row = in_tile.y == 0 || in_tile.y == TILE - 1;
     if ((row || in_tile.x == 0) && is_there(texel))
-        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+        empty(texel);
     if ((row || in_tile.x == TILE - 2) && is_there(texel + ivec2(1, 0)))
-        imageStore(fields, ivec3(texel + ivec2(1, 0), VIRGA_LENS_NEAR), vec4(0.0));
+        empty(texel + ivec2(1, 0));
 }
 
 void gather_both(int pair, vec2 reach)

@@ -49,7 +49,7 @@ void fields_of_both(uvec2 at, inout vec4 behind, inout vec4 before)
     }
     if (BOTH && has(VIRGA_LENS_HAS_FINE)) {
         const float radius = circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) * float(STEP);
-        behind.rgb = mix(behind.rgb, coarse.rgb, coarseness(radius));
+        behind.rgb = mix(behind.rgb, coarse.rgb, coarseness(max(radius, 0.0))); // see fill_of_both
     } else {
         behind.rgb = coarse.rgb;
     }

@@ -232,6 +232,36 @@ static void what_is_little_before_the_focus_is_seen_through_what_is_far_before_i
     }
 }
 
+/* The left half is in front of the focus. Behind it are stripes, and the light that is seen through it there is that
+ * beside it: its edge is no line. And a thin bar before something that is all wide behind the focus has none either. */
+static void what_a_wide_near_disc_uncovers_is_what_is_seen_beside_it(void **state)
+{
+    static const double walls[] = {0, 3, 6, 20}; /* px, of what is behind */
+    static float other[4 * COUNT];
+    (void)state;
+    for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+        double worst = 0;
+        for (int way = 0; way < 2; way++) {
+            host h;
+            open_way(&h, way);
+            for (uint32_t y = 0; y < HEIGHT; y++)
+                for (uint32_t x = 0; x < WIDTH; x++) {
+                    const bool near = walls[i] < 16 ? x + y / 3 < 91 : x > 80 && x + y / 4 < 107 && x + y / 4 > 101;
+                    const double stripe = walls[i] < 16 ? (y / 6 % 2 ? 0.9 : 0.1) : x + y / 4 < 112 ? 0.1 : 0.9;
+                    lens_paint(&h.f.scene, x, y, near ? 0.1f : (float)stripe,
+                               depth_of(near ? (walls[i] < 16 ? -28 : -13) : walls[i]));
+                }
+            run_way(&h, way);
+            for (size_t k = 0; k < COUNT && way; k++)
+                worst = fmax(worst, fabs((double)h.f.result[4 * k] - (double)other[4 * k]));
+            memcpy(other, h.f.result, sizeof other);
+            close_host(&h);
+        }
+        printf("%.0f px behind: up to %.3f apart\n", walls[i], worst);
+        assert_true(worst < 0.06);
+    }
+}
+
 /* Something in front of the focus and something behind it in the middle of what is in focus, after a picture of which
  * all was bright and out of focus. */
 static void nothing_is_left_of_the_picture_before(void **state)
@@ -320,6 +350,7 @@ int main(void)
         cmocka_unit_test(a_street_looks_as_in_the_passes_for_any_width),
         cmocka_unit_test(no_line_is_around_what_is_a_little_before_the_focus),
         cmocka_unit_test(what_is_little_before_the_focus_is_seen_through_what_is_far_before_it),
+        cmocka_unit_test(what_a_wide_near_disc_uncovers_is_what_is_seen_beside_it),
         cmocka_unit_test(nothing_is_left_of_the_picture_before),
         cmocka_unit_test(a_color_that_is_no_number_does_not_spread),
         cmocka_unit_test(other_devices_and_wider_discs_take_the_other_passes),
