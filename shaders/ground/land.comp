@@ -17,36 +17,34 @@ layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arriva
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
-// Takes as many places of the piece's cell as the drop's spot has area, in bits, rounded at random: those which fit
-// best by where they are and by their size.
+// Takes the place that fits the drop's spot best, by where it is and by its size, and for a large spot others within
+// it: together as many as it has area, in bits. A spot smaller than a bit is seen by that chance.
 void leave_spot(Piece piece, float diameter_m, uint hash)
 {
     const float bit_m = tick.cell_m / float(VIRGA_GROUND_SPOTS);
     const float radius = 0.5 * VIRGA_GROUND_SPREAD * diameter_m / bit_m;
+    const float within = clamp(2.0 * radius - 1.0, 0.0, radius);
     const vec2 at = piece.in_cell * float(VIRGA_GROUND_SPOTS);
     const ivec2 own = clamp(ivec2(at), ivec2(0), ivec2(VIRGA_GROUND_SPOTS - 1));
     const ivec2 low = (piece.cell & int(tick.tiles * VIRGA_GROUND_TILE - 1u)) * VIRGA_GROUND_SPOTS;
-    const float places = min(3.14159265 * radius * radius + 1.0 - virga_unit(hash), 9.0);
-    uvec2 bits = uvec2(0u);
-    for (float taken = 1.0; taken <= places; taken += 1.0) {
-        float least = 1e9;
-        uvec2 best = uvec2(0u);
-        for (int i = 0; i < 9; i++) {
-            const ivec2 bit = own + ivec2(i % 3, i / 3) - 1;
-            const uint index = uint(bit.y * VIRGA_GROUND_SPOTS + bit.x), mask = 1u << (index & 31u);
-            const uvec2 one = index < 32u ? uvec2(mask, 0u) : uvec2(0u, mask);
-            const vec4 chance = virga_ground_spot_chance(low + bit);
-            const vec2 apart = vec2(bit) + virga_ground_spot_middle(chance) - at;
-            const float larger = virga_ground_spot_radius(chance) - radius;
-            const float misfit = dot(apart, apart) + larger * larger;
-            const bool inside = min(bit.x, bit.y) >= 0 && max(bit.x, bit.y) < VIRGA_GROUND_SPOTS;
-            if (inside && (bits & one) == uvec2(0u) && misfit < least) {
-                least = misfit;
-                best = one;
-            }
-        }
-        bits |= best;
+    float least = 1e9;
+    uvec2 best = uvec2(0u), bits = uvec2(0u);
+    for (int i = 0; i < 9; i++) {
+        const ivec2 bit = own + ivec2(i % 3, i / 3) - 1;
+        const uint index = uint(bit.y * VIRGA_GROUND_SPOTS + bit.x), mask = 1u << (index & 31u);
+        const uvec2 one = index < 32u ? uvec2(mask, 0u) : uvec2(0u, mask);
+        const vec4 chance = virga_ground_spot_chance(low + bit);
+        const vec2 apart = vec2(bit) + virga_ground_spot_middle(chance) - at;
+        const float larger = virga_ground_spot_radius(chance) - radius;
+        const float misfit = dot(apart, apart) + larger * larger;
+        const bool inside = min(bit.x, bit.y) >= 0 && max(bit.x, bit.y) < VIRGA_GROUND_SPOTS;
+        const bool better = inside && misfit < least;
+        least = better ? misfit : least;
+        best = better ? one : best;
+        bits |= inside && dot(apart, apart) < within * within ? one : uvec2(0u);
     }
+    if (virga_unit(hash) < 3.14159265 * radius * radius)
+        bits |= best;
     if (bits.x != 0u)
         atomicOr(spots[piece.cell_index].x, bits.x);
     if (bits.y != 0u)

@@ -14,9 +14,10 @@ bool interpolates_film() { return look.pane.cell_m >= max(look.texel_m[0], look.
 
 #ifndef SHUFFLE
 // The sheet on the cells that a tile's texels lie between: a texel has four of them, and a cell has many texels. Cells
-// are no smaller than texels there, so those of a tile are in SHEETS columns and rows.
+// are no smaller than texels there, so those of a tile are in SHEETS columns and rows. They are kept in place of beads,
+// which have been added by then: more shared memory would mean fewer workgroups at once.
 #define SHEETS (TILE + 2)
-shared float sheets[SHEETS * SHEETS];
+#define SHEET(column, row) beads[(column) + (row) * SHEETS].x
 ivec2 sheets_low;
 #endif
 
@@ -25,11 +26,13 @@ void load_sheets(ivec2 first)
 #ifndef SHUFFLE
     if (!FILM || !interpolates_film())
         return;
+    if (WITH_BEADS)
+        barrier();
     sheets_low = ivec2(floor(middle_of(first) / look.pane.cell_m - 0.5));
     const ivec2 span = min(ivec2(texel_m() * float(TILE - 1) / look.pane.cell_m) + 3, ivec2(SHEETS));
     for (int y = int(gl_LocalInvocationIndex / TILE); y < span.y; y += LANES / TILE)
         for (int x = int(gl_LocalInvocationIndex % TILE); x < span.x; x += TILE)
-            sheets[x + y * SHEETS] = sheet_m(sheets_low + ivec2(x, y));
+            SHEET(x, y) = sheet_m(sheets_low + ivec2(x, y));
     barrier();
 #endif
 }
@@ -40,8 +43,8 @@ vec4 sheets_from(ivec2 cell)
 #ifdef SHUFFLE
     return vec4(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), sheet_m(cell + ivec2(0, 1)), sheet_m(cell + 1));
 #else
-    const int at = cell.x - sheets_low.x + (cell.y - sheets_low.y) * SHEETS;
-    return vec4(sheets[at], sheets[at + 1], sheets[at + SHEETS], sheets[at + SHEETS + 1]);
+    const ivec2 at = cell - sheets_low;
+    return vec4(SHEET(at.x, at.y), SHEET(at.x + 1, at.y), SHEET(at.x, at.y + 1), SHEET(at.x + 1, at.y + 1));
 #endif
 }
 
