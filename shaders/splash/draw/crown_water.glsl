@@ -11,6 +11,11 @@ struct Bead {
     float radius;
 };
 
+// For loops of a few turns. Software Vulkan's compiler takes seconds for each loop that is left in a shader as long as
+// this one.
+#extension GL_EXT_control_flow_attributes : require
+#define UNROLLED [[unroll]]
+
 struct Sheet { // of the whole crown
     float height, radius; // m, of the rim; around at this pixel
     float share, life_s;
@@ -117,8 +122,8 @@ Line rim_line(Sheet s, float angle)
     const vec2 slow = slow_waves(s, angle);
     Line line = Line(slow.x, slow.y / s.radius);
     const float spacing = 6.2831853 / s.fingers * s.radius, nearest = floor(angle * s.fingers / 6.2831853);
-    for (float k = nearest - 1.0; k < nearest + 1.5; k++) {
-        const Finger f = finger_of(s, k);
+    UNROLLED for (int i = -1; i <= 1; i++) {
+        const Finger f = finger_of(s, nearest + float(i));
         const float x = (angle - f.angle) * s.radius, round = sqrt(x * x + 0.3 * s.rim * s.rim);
         const float cusp = cusp_of(s, f, round);
         line.y += cusp;
@@ -158,8 +163,8 @@ Bead edge_bead(Sheet s, Line line, float angle, float y, float hole_m)
     const float nearest = floor(angle * s.fingers / 6.2831853), spacing = 6.2831853 / s.fingers * s.radius;
     const float drop = virga_crown_ball(VIRGA_CROWN_PI * s.rim * s.rim * spacing);
     Bead fingers = no_bead(), drops = no_bead();
-    for (float k = nearest - 1.0; k < nearest + 1.5; k++) {
-        const Finger f = finger_of(s, k);
+    UNROLLED for (int i = -1; i <= 1; i++) {
+        const Finger f = finger_of(s, nearest + float(i));
         const vec2 p = vec2((angle - f.angle) * s.radius, y - finger_foot(s, f));
         drops = join(drops, ball(s, p, drop), 0.2 * s.rim);
         fingers = join(fingers, finger_bead(s, f, p, parted), 0.5 * s.rim);
@@ -222,19 +227,21 @@ Film torn_film(Sheet s, Line line, float angle, float y, float hole_m)
     const vec2 cell_here = vec2(angle / 6.2831853 * s.cells.x, y / s.height * s.cells.y);
     const float phase = float(s.random & 255u);
     const vec2 here = cell_here + 0.13 * sin(4.0 * cell_here.yx + vec2(phase, 1.7 * phase)), own = floor(here);
-    Site first = Site(vec2(1e2), 0.0, s.thick), second = first;
-    for (float v = -1.0; v < 1.5; v++)
-        for (float u = -1.0; u < 1.5; u++) {
-            const vec2 cell = own + vec2(u, v);
-            if (cell.y < 0.0 || cell.y >= s.cells.y)
-                continue;
-            const Site site = site_of(s, cell, here, hole_m);
-            if (length(site.at) < length(first.at)) {
-                second = first;
-                first = site;
-            } else if (length(site.at) < length(second.at))
-                second = site;
-        }
+    // The two nearest sites of the nine around, with their distances.
+    vec4 nearest = vec4(vec2(1e2), 0.0, s.thick), next = nearest;
+    float nearest_m = 1e2, next_m = 1e2;
+    UNROLLED for (int i = 0; i < 9; i++) {
+        const vec2 cell = own + vec2(i % 3, i / 3) - 1.0;
+        const Site site = site_of(s, cell, here, hole_m);
+        const vec4 found = vec4(site.at, site.radius, site.thick);
+        const float far_m = cell.y < 0.0 || cell.y >= s.cells.y ? 1e2 : length(site.at);
+        const bool first = far_m < nearest_m, second = far_m < next_m;
+        next = first ? nearest : second ? found : next;
+        next_m = first ? nearest_m : second ? far_m : next_m;
+        nearest = first ? found : nearest;
+        nearest_m = first ? far_m : nearest_m;
+    }
+    const Site first = Site(nearest.xy, nearest.z, nearest.w), second = Site(next.xy, next.z, next.w);
     const float away = length(first.at);
     film.beside_hole = first.radius > 0.0 ? away - first.radius : 1e3;
     const float edge = virga_crown_rod(0.5 * first.thick * first.radius);
