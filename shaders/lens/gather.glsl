@@ -328,7 +328,7 @@ vec3 fill_of_both(gatherer to, vec3 behind, vec4 filled)
     const float apart = pow(1.3 / max(finer_nearness, 1e-6), 0.2);
     float fine = to.behind ? 1.0 - smoothstep(0.25, 0.75, apart / -to.own) : 0.0; // of how far it looks
     if (to.behind)
-        fine *= finer_nearness / max(all_nearness, 1e-6); // a blade's far end is behind it, and what is wide much more
+        fine *= finer_nearness / max(all_nearness, 1e-6); // where most of what is near is wide, the coarse field has it
     return mix(behind, mix(coarse_far(to.texel), filled.rgb / max(filled.a, 1e-12), fine), wide);
 }
 #endif
