@@ -210,7 +210,7 @@ static void a_gutter_without_a_named_pipe_pours_at_its_end(void **state)
     double sum = 0;
     for (uint32_t i = 0; i < gutters.site_count; i++) {
         assert_float_equal(gutters.sites[i].position_m[0], end, 0.15);
-        assert_float_equal(gutters.sites[i].position_m[1], 0.2, 1e-6);
+        assert_float_equal(gutters.sites[i].position_m[1], 0, 0.011); /* no jet from the air */
         sum += (double)gutters.sites[i].catch_m2;
     }
     assert_float_equal(sum, eaves_m2(), 1e-3);

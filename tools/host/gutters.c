@@ -12,8 +12,10 @@
 #define PART_M2      2.0  /* of a roof, for a place that pours */
 #define PART_WIDTH_M 1.0  /* of its eave: the most that a place may have */
 #define PIPE_M       0.03 /* inner radius, over which the places are spread. Pipes of 60 to 100 mm are usual */
-#define FOOT_M       0.2  /* a pipe that no scene names ends so far above the ground, */
-#define FOOT_M_S     1.0  /* and water leaves it so fast */
+/* A pipe that no scene names is in no mesh either. It ends at the ground, a drop's size above it: a jet that comes out
+ * of the air would be seen as a block of water. Water leaves a pipe at about 1 m/s. */
+#define FOOT_M       0.01
+#define FOOT_M_S     1.0
 #define DROPS        8    /* of a jet, that fly as one */
 #define MIN_SLOPE    0.005
 #define NO_RUN       UINT32_MAX
