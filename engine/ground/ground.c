@@ -41,6 +41,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, start_water_mm, 0, 50, 0),
     SETTING(U32, contact_droplets, 0, 64, 12),
     SETTING(FLOAT, stream_waves, 0, 4, 1, .look = true),
+    SETTING(FLOAT, wake_waves, 0, 4, 1, .look = true),
     SETTING(BOOL, measure, false, true, true, .look = true),
 };
 

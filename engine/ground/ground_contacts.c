@@ -208,6 +208,11 @@ void ground_contacts_fill(const virga_ground *ground, virga_ground_tick_gpu *out
     out->handed_offset[1] = (float)(info->handed_origin_m[1] - ground->base_m);
 }
 
+void ground_wakes_live(virga_ground *ground)
+{
+    ground->wakes_end = ground->ticks + 1 + (uint64_t)ceil(VIRGA_WAKE_LIFE_S / ground->def.tick_s);
+}
+
 void ground_contacts_record(virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
@@ -215,6 +220,7 @@ void ground_contacts_record(virga_ground *ground, VkCommandBuffer cmd)
     const uint32_t cells = tick->contact_count ? tick->contacts[tick->contact_count - 1].end : 0;
     if (!cells)
         return;
+    ground_wakes_live(ground);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.contact");
     virga_dispatch_and_barrier(context, cmd, ground->contact, 1);
     virga_dispatch_and_barrier(context, cmd, ground->contact_soak, (cells + PUSH_GROUP - 1) / PUSH_GROUP);

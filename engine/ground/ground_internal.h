@@ -135,7 +135,7 @@ typedef struct ground_streams {
 } ground_streams;
 
 /* Where the head of running water is in the buffer of rings: a stage sees no more buffers than there are. */
-#define GROUND_STREAMS_OFFSET (sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu))
+#define GROUND_STREAMS_OFFSET (sizeof(virga_rings_gpu) + (VIRGA_MAX_RINGS + VIRGA_MAX_WAKES) * sizeof(virga_ring_gpu))
 
 /* Blocks of cells along the side of the area around the ripple map. */
 uint32_t ground_streams_blocks(const virga_ground_def *def);
@@ -227,7 +227,8 @@ struct virga_ground {
     bool has_base;
     uint64_t move_frame; /* of the newest move of the window */
     bool redraw_heights;
-    uint64_t ticks; /* ticks run since creation */
+    uint64_t ticks;     /* ticks run since creation */
+    uint64_t wakes_end; /* tick after which no wake is left; wheels and feet move it on */
 
     virga_buffer *floors, *cells, *arrivals, *spots, *cached_cells, *cached_spots, *counts, *landings, *rings, *stirs,
         *swings, *spawns, *no_rules;
@@ -271,6 +272,8 @@ void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, ui
 
 virga_result ground_contacts_check(const virga_ground *ground, const virga_ground_step_info *info);
 void ground_contacts_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
+/* Wakes may begin now, or are in a state that was loaded. */
+void ground_wakes_live(virga_ground *ground);
 /* The passes of the newest tick. The set of GROUND_CONTACTS must be bound. */
 void ground_contacts_record(virga_ground *ground, VkCommandBuffer cmd);
 

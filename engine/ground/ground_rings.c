@@ -115,13 +115,22 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
                        (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES}, VIRGA_RING_LAYERS);
 }
 
+/* Wakes are left out where no wheel and no foot was for so long that none is left. */
+static void draw_rings(const virga_ground *ground, VkCommandBuffer cmd)
+{
+    const virga_context *context = ground->base.context;
+    context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
+    if (ground->settings.wake_waves > 0 && ground->ticks < ground->wakes_end)
+        context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_WAKES, 1, 6 * VIRGA_MAX_RINGS, 0);
+}
+
 void ground_ripples_draw(const virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
     const ground_ripples *ripples = &ground->ripples;
     virga_offscreen_begin(context, cmd, ripples->map, 0);
     if (virga_bind_pipeline(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline))
-        context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
+        draw_rings(ground, cmd);
     ground_streams_draw(ground, cmd);
     virga_offscreen_end(context, cmd);
 }

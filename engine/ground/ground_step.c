@@ -82,6 +82,7 @@ void ground_state_loaded(void *object)
     virga_ground *ground = object;
     ground->move_frame = 0;
     ground->far.can_repeat = false; /* the map was drawn by a tick that the state does not have */
+    ground_wakes_live(ground);
     ground->stats.tiles_cached = ground->window.cached_count;
 }
 
@@ -175,6 +176,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
             (float)(ground->ripple_low_m[axis] - ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell);
     out->ripple_side_m = (float)side_m;
     out->tick_s = (float)ground->def.tick_s;
+    out->wake_waves = ground->settings.wake_waves;
     out->last_tick = tick ? tick : ground->last_tick;
     out->max_spawns = ground->info.splash_rules ? ground->def.max_spawns : 0;
     out->max_impacts = ground->def.max_impacts;

@@ -2,6 +2,7 @@
 #include "ground/ring_table.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define GRAVITY   9.80665
@@ -60,7 +61,9 @@ double ring_reach(int layer, double t)
 {
     static const double starts_m[VIRGA_RING_WIDTHS] = {VIRGA_RING_START_LIST};
     static const double fronts_m_s[VIRGA_RING_WIDTHS] = {VIRGA_RING_FRONT_LIST};
-    return starts_m[layer / VIRGA_RING_DEPTHS] + fronts_m_s[layer / VIRGA_RING_DEPTHS] * t;
+    const int width = layer / VIRGA_RING_DEPTHS;
+    const bool slow = width >= VIRGA_RING_DROP_WIDTHS && layer % VIRGA_RING_DEPTHS < VIRGA_WAKE_SHALLOW;
+    return starts_m[width] + (slow ? VIRGA_WAKE_SHALLOW_FRONT : fronts_m_s[width]) * t;
 }
 
 /* Of each wave of a width of craters, at each depth: its amplitude S(k) exp((i w - gamma) t) k^2 dk at the time that
@@ -119,9 +122,10 @@ static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *be
     memcpy(sums, sum, sizeof sum);
 }
 
-/* All depths of a width, from layer `first` on. */
-static void fill_width(int first, double blur_m, const float *bessel, float *slope)
+/* `count` depths of a width, from layer `first` on, whose waves reach equally far. */
+static void fill_layers(int first, int count, double blur_m, const float *bessel, float *slope)
 {
+    const int begin = first % VIRGA_RING_DEPTHS;
     float weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
     waves w;
     const double dt = ring_life(first) / (VIRGA_RING_TIMES - 1);
@@ -130,8 +134,8 @@ static void fill_width(int first, double blur_m, const float *bessel, float *slo
         weigh(&w, weights);
         for (int r = 0; r < VIRGA_RING_RADII; r++) {
             sum_waves(weights, bessel, w.step, r * ring_reach(first, j * dt) / (VIRGA_RING_RADII - 1), sums);
-            for (int depth = 0; depth < VIRGA_RING_DEPTHS; depth++)
-                slope[((first + depth) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[depth];
+            for (int i = 0; i < count; i++)
+                slope[((first + i) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[begin + i];
         }
     }
 }
@@ -141,8 +145,11 @@ void ring_table_fill(float *slope, double blur_m)
     float bessel[J1_SIZE];
     for (int i = 0; i < J1_SIZE; i++)
         bessel[i] = (float)j1((double)i / J1_STEPS);
-    for (int first = 0; first < VIRGA_RING_LAYERS; first += VIRGA_RING_DEPTHS)
-        fill_width(first, blur_m, bessel, slope);
+    const int wakes = VIRGA_RING_DROP_WIDTHS * VIRGA_RING_DEPTHS;
+    for (int first = 0; first < wakes; first += VIRGA_RING_DEPTHS)
+        fill_layers(first, VIRGA_RING_DEPTHS, blur_m, bessel, slope);
+    fill_layers(wakes, VIRGA_WAKE_SHALLOW, blur_m, bessel, slope);
+    fill_layers(wakes + VIRGA_WAKE_SHALLOW, VIRGA_RING_DEPTHS - VIRGA_WAKE_SHALLOW, blur_m, bessel, slope);
 }
 
 uint16_t ring_half(float number)

@@ -22,7 +22,8 @@
  * over twice the wave's energy rho w^2 A^2 / (2 k tanh(k h)) (Landau and Lifshitz, par. 25).
  *
  * The crater of the table is 1 m deep: multiply by the depth of the real crater. The table has a few widths a of
- * craters, see VIRGA_RING_WIDTH_LIST; shaders/ground/rings.glsl says which drop makes which. */
+ * craters, see VIRGA_RING_WIDTH_LIST; shaders/ground/rings.glsl says which drop makes which. The widest is that of
+ * wakes, see shaders/ground/wakes.glsl. */
 #ifndef VIRGA_GROUND_RING_TABLE_H
 #define VIRGA_GROUND_RING_TABLE_H
 
@@ -57,7 +58,7 @@ double ring_reach(int layer, double t);
  *
  * Radii that grow with the front put the entries where the waves are. The entries move with the wave groups, so an
  * entry changes little from one time to the next. With linear interpolation in radius and time the error is at most 6 %
- * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.05 s and uses 160 KiB of
+ * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.1 s and uses 160 KiB of
  * stack.
  *
  * `blur_m` is the standard deviation of a Gaussian that smooths the surface: use half a texel. Otherwise waves that are

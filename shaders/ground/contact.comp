@@ -1,6 +1,6 @@
 // contact.comp - wheels and feet move the water under them: some flies, some is pushed into the cells around.
 // One workgroup, in which each invocation takes a run of the cells near contacts, so that droplets are listed in the
-// order of cells. Reads: floors. Writes: cells, arrivals, the list of droplets, counts.
+// order of cells. Reads: floors. Writes: cells, arrivals, the list of droplets, counts, wakes.
 //
 // A cell belongs to the first contact that covers it, and nothing that is written here is read here but by the
 // invocation that writes it. So the result does not depend on the order of invocations.
@@ -11,6 +11,8 @@
 #include "contacts.glsl"
 #include "contact_plan.glsl"
 #include "contact_throw.glsl"
+#include "rings.glsl"
+#include "wakes.glsl"
 #define SCAN_LANES uint(VIRGA_GROUND_LANES)
 #include "gpu/group_scan.glsl"
 
@@ -45,8 +47,11 @@ void carry_out(Near near, Plan plan, uint first, bool has_room)
         atomicAdd(arrivals[target].given_nl, plan.pushed_nl);
         gone += plan.pushed_nl;
     }
-    if (gone > 0u)
-        cells[near.cell_index].free_nl -= gone;
+    if (gone == 0u)
+        return;
+    const uint before_nl = cells[near.cell_index].free_nl;
+    cells[near.cell_index].free_nl = before_nl - gone;
+    stir(near.contact, plan.at, gone, before_nl);
 }
 
 void main()
@@ -58,6 +63,7 @@ void main()
     const uint held = throws ? handed_head.count : 0u, capacity = throws ? handed_head.capacity : 0u;
     if (lane == 0u)
         listed = held;
+    clear_wakes();
     uint wanted = 0u;
     for (uint number = begin; number < end; number++)
         wanted += plan_of(near_of(number)).droplets;
@@ -78,4 +84,5 @@ void main()
         handed_head.count = listed;
         handed_head.group_count = uint[3]((listed + 63u) / 64u, 1u, 1u);
     }
+    start_wakes();
 }

@@ -1,4 +1,5 @@
-// ring.vert - a square around each living ring in the ripple map, as wide as its fastest waves have travelled.
+// ring.vert - a square around each living ring in the ripple map, as wide as its fastest waves have travelled. Rings
+// of drops and wakes are two draws.
 // One invocation per vertex, six per ring. Reads: rings. Writes: offset, constants of the ring.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -14,12 +15,13 @@ layout(location = 0) noperspective out vec2 offset_m; // from where the drop fel
 layout(location = 1) flat out vec3 moment;
 layout(location = 2) flat out vec2 row; // x: time in the table, as a fraction; y: its layer
 
+const float DEPTHS_M[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](VIRGA_RING_DEPTH_LIST);
+
 int layer_of(float depth_m)
 {
-    const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](VIRGA_RING_DEPTH_LIST);
     int layer = 0;
     for (int i = 1; i < VIRGA_RING_DEPTHS; i++)
-        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? i : layer; // the nearest by ratio
+        layer = depth_m * depth_m > DEPTHS_M[i - 1] * DEPTHS_M[i] ? i : layer; // the nearest by ratio
     return layer;
 }
 
@@ -33,7 +35,10 @@ void main()
     const virga_ring_gpu ring = rings[ring_index];
     const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
     const uint width = min(ring.width, VIRGA_RING_WIDTHS - 1u);
-    const float life_s = LIVES_S[width], radius = STARTS_M[width] + FRONTS_M_S[width] * age;
+    const bool wake = width >= VIRGA_RING_DROP_WIDTHS;
+    const int layer = layer_of(ring.depth_m);
+    const float front_m_s = wake && layer < VIRGA_WAKE_SHALLOW ? VIRGA_WAKE_SHALLOW_FRONT : FRONTS_M_S[width];
+    const float life_s = LIVES_S[width], radius = STARTS_M[width] + front_m_s * age;
     const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
     const vec2 cell =
         vec2(ivec2(ring.cell[0], ring.cell[1]) - ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) +
@@ -45,10 +50,11 @@ void main()
     // The table begins with the crater, which opens while the crown around it rises. A crater that is there at once
     // would pop up in pictures that are a few milliseconds apart.
     const float ends = 1.0 - smoothstep(VIRGA_RING_FADES, 1.0, age / life_s);
-    const float there = smoothstep(0.0, VIRGA_RING_OPENS_S, age) * ends;
+    const float there = smoothstep(0.0, wake ? VIRGA_WAKE_OPENS_S : VIRGA_RING_OPENS_S, age) * ends *
+                        (wake ? tick.wake_waves : 1.0);
     moment = vec3(float(VIRGA_RING_RADII - 1) / radius, fract(time), 100.0 * ring.crater_m * there);
     row = vec2((floor(time) + 0.5) / float(VIRGA_RING_TIMES),
-               float(int(width) * VIRGA_RING_DEPTHS + layer_of(ring.depth_m)));
+               float(int(width) * VIRGA_RING_DEPTHS + layer));
     const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < life_s;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : DRAWN_NOWHERE;
 }

@@ -1,5 +1,5 @@
-// rings.glsl - rings on puddles: their records, the depth of a drop's crater, and the roughness of the water. A vertex
-// shader defines RINGS_ACCESS readonly.
+// rings.glsl - rings and wakes on puddles: their records, the depth of a drop's crater, and the roughness of the
+// water. A vertex shader defines RINGS_ACCESS readonly.
 #ifndef RINGS_ACCESS
 #define RINGS_ACCESS
 #endif
@@ -9,7 +9,7 @@ layout(scalar, set = 0, binding = 5) RINGS_ACCESS buffer Stirs { uint stirs[]; }
 layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;
-    virga_ring_gpu rings[VIRGA_MAX_RINGS];
+    virga_ring_gpu rings[VIRGA_MAX_RINGS + VIRGA_MAX_WAKES];
     virga_streams_gpu streams_head; // behind them, running water (streams.glsl)
     virga_stream_gpu streams[];
 };
@@ -41,7 +41,7 @@ Crater crater_of(float diameter_m, float speed_m_s, float water_m)
     const float energy_j = 998.2 * 0.26179939 * diameter_m * diameter_m * diameter_m * speed_m_s * speed_m_s;
     const float own_m = sqrt(sqrt(energy_j * (2.0 / (3.14159265 * WATER_WEIGHT))));
     uint width = 0u;
-    for (int i = 1; i < VIRGA_RING_WIDTHS; i++)
+    for (int i = 1; i < VIRGA_RING_DROP_WIDTHS; i++)
         width = own_m * own_m > RING_WIDTHS[i - 1] * RING_WIDTHS[i] ? uint(i) : width; // the nearest by ratio
     const float a = RING_WIDTHS[width];
     const float energy_by_depth2 = 0.39269908 * WATER_WEIGHT * a * a + 2.35619449 * WATER_TENSION;
@@ -56,8 +56,8 @@ float calm_time(uint width, float water_m)
     return width == 0u ? 0.1415 * (1.0 - exp(-pow(mm / 1.55, 1.3))) : 0.26 * (1.0 - exp(-pow(mm / 2.05, 0.85)));
 }
 
-// Cells keep one variance of slope for waves of all widths. It calms as that of the widest does.
-float cell_calm_time(float water_m) { return calm_time(VIRGA_RING_WIDTHS - 1u, water_m); }
+// Cells keep one variance of slope for drops' waves of all widths. It calms as that of the widest does.
+float cell_calm_time(float water_m) { return calm_time(VIRGA_RING_DROP_WIDTHS - 1u, water_m); }
 
 // Variance of slope from a drop's waves on a cell: the square of the crater's slope over its area, 4 pi (3 / 8) of its
 // depth squared for any width (see ring_table.h: slope^2 = (2 r / a^2 (2 - x))^2 exp(-2 x), x = r^2 / a^2), over the

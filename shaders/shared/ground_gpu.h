@@ -123,7 +123,7 @@ struct virga_ground_tick_gpu {
     float ripple_low_m[2];    /* m, low corner of the ripple map, relative to the window's */
     float ripple_side_m;      /* m, side of the ripple map */
     float tick_s;             /* s, length of a tick */
-    uint rings;               /* 0: no ripple map */
+    float wake_waves;         /* how high wakes are drawn; 1: as they are, 0: not at all */
     uint last_tick;           /* the newest tick */
     uint max_spawns;          /* 0: no splashes */
     uint max_impacts;         /* landings of returns start at this index */
@@ -170,7 +170,7 @@ struct virga_ground_tick_gpu {
     virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
 
-/* A ring wave on a puddle, 48 bytes. */
+/* A ring wave on a puddle, 48 bytes. Of a drop, or one of those that a wake is made of. */
 struct virga_ring_gpu {
     int cell[2];      /* cell of the world where the drop fell */
     float in_cell[2]; /* [0; 1), position in that cell */
@@ -180,14 +180,15 @@ struct virga_ring_gpu {
     float crater_m;
     float depth_m;  /* m, of the water */
     uint width;     /* index of the crater's width in VIRGA_RING_WIDTH_LIST */
-    uint id;        /* of the drop */
+    uint id;        /* of the drop, the wheel or the foot */
     float drift[2]; /* m/s, along x and z, of the water's surface: it carries the ring along */
 };
 
-/* Head of the list of ring waves, which is a ring buffer. */
+/* Head of the list of ring waves: a ring buffer of drops' rings, and behind it one of wakes. */
 struct virga_rings_gpu {
     uint total; /* rings ever added; the newest is at index (total - 1) modulo VIRGA_MAX_RINGS */
-    uint pad[3];
+    uint wakes; /* the same of wakes: (wakes - 1) modulo VIRGA_MAX_WAKES, behind VIRGA_MAX_RINGS */
+    uint pad[2];
 };
 
 /* Running water of a cell, and the waves on it. */

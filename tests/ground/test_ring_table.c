@@ -298,7 +298,7 @@ static void test_water_takes_the_nearest_depth(void **state)
         assert_int_equal(ring_layer(width, ring_depth(layer) * 0.9), layer);
     }
     assert_int_equal(ring_layer(0, 0), 0);
-    assert_int_equal(ring_layer(1, 5), VIRGA_RING_LAYERS - 1);
+    assert_int_equal(ring_layer(VIRGA_RING_WIDTHS - 1, 5), VIRGA_RING_LAYERS - 1);
 }
 
 /* The fits that shaders/ground/rings.glsl has. */
@@ -310,7 +310,7 @@ static double fitted_calm_time(int width, double mm)
 static void test_calm_time_is_the_faded_table_summed_over_time(void **state)
 {
     (void)state;
-    for (int layer = 0; layer < VIRGA_RING_LAYERS; layer++) {
+    for (int layer = 0; layer < VIRGA_RING_DROP_WIDTHS * VIRGA_RING_DEPTHS; layer++) {
         const double h = ring_depth(layer);
         double held = 0, before = 0;
         for (int j = 0; j < VIRGA_RING_TIMES; j++) {

@@ -172,6 +172,7 @@ static void ground(void **state)
     SAME(start_water_mm);
     SAME(contact_droplets);
     SAME(stream_waves);
+    SAME(wake_waves);
     scene_file_free(scene);
 }
 

@@ -52,6 +52,8 @@ static const scene_row ground_rows[] = {
           "droplets at most that a wheel throws out of a cell in a tick; 0: none"),
     NUMBER(scene_ground, stream_waves, 0, 4, "1", LIVE,
            "height of the waves on water that runs; 1: as they are, 0: none, and no cost"),
+    NUMBER(scene_ground, wake_waves, 0, 4, "1", LIVE,
+           "height of the waves that wheels and feet make on puddles; 1: as they are, 0: none, and no cost"),
     SWITCH(scene_ground, contact_shade, "true", LIVE,
            "wet ground is darker under cars and at the foot of what stands on it"),
     LIST(scene_ground, materials, material_count, &ground_rule_group, 0, 256, "[]",
@@ -345,6 +347,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.start_water_mm = (float)from->start_water_mm;
     settings.contact_droplets = from->contact_droplets;
     settings.stream_waves = (float)from->stream_waves;
+    settings.wake_waves = (float)from->wake_waves;
     settings.measure = s->options.stats;
     return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
 }

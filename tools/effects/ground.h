@@ -34,6 +34,7 @@ typedef struct scene_ground {
     double start_wetness, start_water_mm;
     uint32_t contact_droplets;
     double stream_waves;
+    double wake_waves;
     bool contact_shade;
     scene_ground_rule *materials; /* the first match applies; without one, keywords in names decide */
     uint32_t material_count;

@@ -14,11 +14,11 @@
 #define PIPE_M       0.03 /* inner radius, over which the places are spread. Pipes of 60 to 100 mm are usual */
 /* A pipe that no scene names is in no mesh either. It ends at the ground, a drop's size above it: a jet that comes out
  * of the air would be seen as a block of water. Water leaves a pipe at about 1 m/s. */
-#define FOOT_M       0.01
-#define FOOT_M_S     1.0
-#define DROPS        8    /* of a jet, that fly as one */
-#define MIN_SLOPE    0.005
-#define NO_RUN       UINT32_MAX
+#define FOOT_M    0.01
+#define FOOT_M_S  1.0
+#define DROPS     8 /* of a jet, that fly as one */
+#define MIN_SLOPE 0.005
+#define NO_RUN    UINT32_MAX
 
 /* What a pipe gets. */
 typedef struct pipe_load {

@@ -16,6 +16,9 @@
  *
  * The water under a foot that treads down is pressed out of its patch on all sides.
  *
+ * Where water of a puddle is moved, waves begin (virga_ground_settings.wake_waves): rings around a step, and behind a
+ * wheel that is faster than sqrt(g h), 0.3 m/s in 8 mm of water, a wedge.
+ *
  * The droplets fly as those of splashes (virga/splash.h): wind, panes, ground. Their water is counted all the way. */
 #ifndef VIRGA_CONTACT_H
 #define VIRGA_CONTACT_H
