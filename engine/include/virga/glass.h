@@ -323,7 +323,10 @@ typedef struct virga_glass_settings {
     /* [0; 1] share of steps to the side, even on even glass. Default 0.1. */
     float meander;
 
-    /* [0; 1] share by which a wet path lowers the force that holds the drops which follow on it. Default 0.6. */
+    /* [0; 1] share by which a wet path lowers the force that holds the drops which follow on it. Their fronts advance
+     * over wet glass then, so it is (cos wet - cos advancing) / (cos receding - cos advancing), with the contact angle
+     * on wet glass; 1: no wet glass holds drops. A path beside the way of a drop draws it in. Its own trail does not
+     * ease a drop. Default 0.6. */
     float path_ease;
 
     /* [0.1; 600] time in which a path dries (s). Default 8. */

@@ -46,8 +46,10 @@ void integrate_motion(uint slot, uint kind, uint water, float mass, float a)
     const uint cell = on_mesh ? drops[slot].cell
                               : cell_number(clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1));
     const uint packed_cell = surface[cell];
-    vec2 velocity =
-        next_velocity(before, force_on_drop(at, mass, a, packed_cell), retention_force(a, cell, packed_cell), mass, a);
+    vec2 force = force_on_drop(at, mass, a, packed_cell);
+    float hold = retention_force(a, packed_cell);
+    follow_path(before, cell, a, force, hold);
+    vec2 velocity = next_velocity(before, force, hold, mass, a);
     const float max_speed = 0.9 * float(tick.cells_per_tick) * tick.pane.cell_m / tick.tick_s;
     velocity *= min(1.0, max_speed / max(length(velocity), 1e-12));
     drops[slot].velocity = to_array(velocity);

@@ -83,6 +83,9 @@ float cell_wet(uint cell)
     return last == 0u ? 0.0 : exp(-float(tick.tick - last) * tick.tick_s / tick.path_dry_s);
 }
 
+// The same for a cell that may be beyond the pane: 0 there.
+float path_wet(ivec2 cell) { return on_pane(cell) ? cell_wet(cell_number(cell)) : 0.0; }
+
 // ---- the pane's frame
 
 Frame frame_at(vec2 point)
