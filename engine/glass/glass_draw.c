@@ -470,7 +470,7 @@ static virga_result check_prepare(virga_glass *glass, VkCommandBuffer cmd, const
 static void fill_fog_order(const virga_glass *glass, glass_prepared *seen)
 {
     const uint32_t side = seen->draw & VIRGA_GLASS_DRAW_SIDE;
-    seen->fog = glass_shows_fog(glass);
+    seen->fog = glass_shows_fog(&glass->settings);
     seen->fog_before = glass->settings.condensation.side == VIRGA_GLASS_FOG_INSIDE ? side == VIRGA_GLASS_DRAW_BEHIND
                                                                                    : side == VIRGA_GLASS_DRAW_BEFORE;
 }
@@ -581,6 +581,8 @@ static const uint32_t paper_draws[4] = {ALONE, ALONE | DEPTH, PLATE, PLATE | DEP
 static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
 static const uint32_t textured_draws[2] = {0, DEPTH};
 static const uint32_t fog_draws[4] = {0, DEPTH, VIRGA_GLASS_DRAW_DROPLETS, VIRGA_GLASS_DRAW_DROPLETS | DEPTH};
+static const uint32_t solid_fog_draws[4] = {OPAQUE, OPAQUE | DEPTH, OPAQUE | VIRGA_GLASS_DRAW_DROPLETS,
+                                            OPAQUE | VIRGA_GLASS_DRAW_DROPLETS | DEPTH};
 static const uint32_t front_draws[2] = {0, VIRGA_GLASS_DRAW_LAMPS};
 static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
                                        ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
@@ -601,16 +603,27 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
     {"glass.front", VIRGA_VERTEX_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_front_frag), front_draws,
      2, .no_depth = true},
     {"glass.fog", VIRGA_VERTEX_FORM(glass_draw_fog_vert), VIRGA_FORM(glass_draw_fog_frag), fog_draws, 4},
+    {"glass.solid_fog", VIRGA_VERTEX_FORM(glass_draw_fog_vert), VIRGA_FORM(glass_draw_fog_frag), solid_fog_draws, 4},
 };
 
-enum { ROW_PHYSICAL, ROW_PAPER, ROW_REFRACTION, ROW_MIST, ROW_TEXTURED, ROW_TEXTURED_REFRACTION, ROW_FRONT, ROW_FOG };
+enum {
+    ROW_PHYSICAL,
+    ROW_PAPER,
+    ROW_REFRACTION,
+    ROW_MIST,
+    ROW_TEXTURED,
+    ROW_TEXTURED_REFRACTION,
+    ROW_FRONT,
+    ROW_FOG,
+    ROW_SOLID_FOG
+};
 
 /* As choose_draws chooses. */
 uint32_t glass_wanted_draws(const void *glass, const void *given)
 {
     (void)glass;
     const virga_glass_settings *settings = given;
-    uint32_t rows = settings->condensation.side != VIRGA_GLASS_FOG_NONE ? 1u << ROW_FOG : 0;
+    uint32_t rows = !glass_shows_fog(settings) ? 0 : 1u << (settings->opaque ? ROW_SOLID_FOG : ROW_FOG);
     if (!glass_is_all_textured(settings))
         rows |= 1u << ROW_REFRACTION | 1u << (settings->style == VIRGA_GLASS_STYLE_PAPER ? ROW_PAPER : ROW_PHYSICAL);
     if (glass_is_front(settings))
@@ -669,9 +682,10 @@ static void choose_draws(const glass_prepared *seen, const virga_effect_target *
     used[DRAW_FOG_BEHIND] = used[DRAW_FOG_BEFORE] = NULL;
     used[DRAW_DROPLETS_BEHIND] = used[DRAW_DROPLETS_BEFORE] = NULL;
     if (seen->fog && !refraction) {
-        used[seen->fog_before ? DRAW_FOG_BEFORE : DRAW_FOG_BEHIND] = found->draws[GLASS_DRAW_FOG + depth];
+        const uint32_t fog = (opaque ? GLASS_DRAW_SOLID_FOG : GLASS_DRAW_FOG) + depth;
+        used[seen->fog_before ? DRAW_FOG_BEFORE : DRAW_FOG_BEHIND] = found->draws[fog];
         used[seen->fog_before ? DRAW_DROPLETS_BEFORE : DRAW_DROPLETS_BEHIND] =
-            found->draws[GLASS_DRAW_FOG + GLASS_DRAW_OF_DROPLETS + depth];
+            found->draws[fog + GLASS_DRAW_OF_DROPLETS];
     }
     if (seen->front) {
         /* What film and mist do to a lens is not drawn, and no pixel of a disc out of focus looks up one other. */

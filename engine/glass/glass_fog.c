@@ -214,12 +214,11 @@ void glass_record_fog_take(virga_glass *glass, VkCommandBuffer cmd)
 
 /* ---- pictures */
 
-/* Drops on the camera's front element are out of focus, and so would fog be: that is the setting `veil`. What is not
- * glass does not show what is behind it. */
-bool glass_shows_fog(const virga_glass *glass)
+/* The far side of what is not glass is not seen. */
+bool glass_shows_fog(const virga_glass_settings *settings)
 {
-    const virga_glass_settings *s = &glass->settings;
-    return s->condensation.side != VIRGA_GLASS_FOG_NONE && !s->opaque && !glass_is_front(s);
+    return settings->condensation.side == VIRGA_GLASS_FOG_OUTSIDE ||
+           (settings->condensation.side == VIRGA_GLASS_FOG_INSIDE && !settings->opaque);
 }
 
 void glass_fill_fog_look(const virga_glass *glass, virga_glass_picture_gpu *look)
@@ -237,7 +236,7 @@ void glass_record_fog_map(virga_glass *glass, VkCommandBuffer cmd)
 {
     const VkExtent2D size = glass->picture.mist_size;
     const uint32_t side = VIRGA_GLASS_MIST_BLOCK;
-    if (!glass_shows_fog(glass))
+    if (!glass_shows_fog(&glass->settings))
         return;
     virga_context *context = glass->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.fog_map");
@@ -252,10 +251,17 @@ void glass_record_fog_map(virga_glass *glass, VkCommandBuffer cmd)
 
 virga_result glass_check_condensation(const virga_glass *glass, const virga_glass_settings *settings)
 {
-    if (settings->condensation.side == VIRGA_GLASS_FOG_NONE || glass->def.condensation)
+    const virga_log *log = &glass->base.context->log;
+    if (settings->condensation.side == VIRGA_GLASS_FOG_NONE)
         return VIRGA_OK;
-    return virga_wrong_argument(&glass->base.context->log, "glass_settings.condensation.side: expected none for a pane "
-                                                           "without glass_def.condensation");
+    if (!glass->def.condensation)
+        return virga_wrong_argument(log, "glass_settings.condensation.side: expected none for a pane without "
+                                         "glass_def.condensation");
+    /* Fog there is out of focus, as drops are: it only takes contrast away. */
+    if (glass_is_front(settings))
+        return virga_wrong_argument(log, "glass_settings.condensation.side: expected none with the style front, whose "
+                                         "fog is `veil`");
+    return VIRGA_OK;
 }
 
 void glass_check_fog_state(const virga_glass *glass, virga_state_check *check)

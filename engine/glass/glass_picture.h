@@ -22,7 +22,8 @@
  * Mist also has pipelines for opaque surfaces.
  * Drops as textures, and their refraction vectors: without and with the scene's depth.
  * Drops on the camera's front element: without and with lights.
- * Fog: without and with the scene's depth; of droplets that are too small to be seen, and of others. */
+ * Fog: without and with the scene's depth; of droplets that are too small to be seen, and of others. On opaque surfaces
+ * the same. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
@@ -32,11 +33,12 @@ enum {
     GLASS_DRAW_TEXTURED_REFRACTION = 34,
     GLASS_DRAW_FRONT = 36,
     GLASS_DRAW_FOG = 38,
+    GLASS_DRAW_SOLID_FOG = 42,
     GLASS_DRAW_OF_DROPLETS = 2, /* (fog) offset of those for droplets that are seen */
     GLASS_DRAW_OF_PAPER = 2,    /* (refraction) offset of the paper style */
     GLASS_DRAW_OF_PLATE = 2,    /* (paper, mist) offset of those with the host's color image */
     GLASS_DRAW_OF_SOLID = 4,    /* (mist) offset of those for opaque surfaces */
-    GLASS_DRAW_ROWS = 8
+    GLASS_DRAW_ROWS = 9
 };
 
 #define GLASS_GATHER_FILM        16u   /* tiles with film */
@@ -171,8 +173,8 @@ void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_
 
 /* ---- glass_fog.c */
 
-/* Whether a view of the pane shows fog. */
-bool glass_shows_fog(const virga_glass *glass);
+/* Whether views of the pane show fog. */
+bool glass_shows_fog(const virga_glass_settings *settings);
 void glass_fill_fog_look(const virga_glass *glass, virga_glass_picture_gpu *look);
 /* Records the pass that makes the fog map. The descriptor set is bound. */
 void glass_record_fog_map(virga_glass *glass, VkCommandBuffer cmd);

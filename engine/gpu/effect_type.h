@@ -20,7 +20,7 @@
 #define VIRGA_EFFECT_MAX_COUNTS   40
 #define VIRGA_EFFECT_MAX_DEF      512   /* bytes */
 #define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes */
-#define VIRGA_EFFECT_MAX_DRAWS    44    /* pipelines of a target */
+#define VIRGA_EFFECT_MAX_DRAWS    46    /* pipelines of a target */
 #define VIRGA_EFFECT_PARTS        2     /* parts of a frame's statistics: its step and its prepare */
 
 #define VIRGA_ROWS(table) (uint32_t)(sizeof(table) / sizeof(table)[0])

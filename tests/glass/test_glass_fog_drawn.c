@@ -189,6 +189,57 @@ static void large_droplets_are_seen_as_drops(void **unused)
     shot_close(&s);
 }
 
+/* Dew on paint with an index of 1.5, under surroundings of 1 all around. Under the share c it lacks its gloss straight
+ * on, as a film takes it off, and 0.95 of the rest passes; 0.05 of the surroundings come from the droplets. To 0.5 % of
+ * the surroundings. */
+static void dew_takes_the_gloss_off_what_is_not_glass(void **unused)
+{
+    static const double um[] = {0.02, 0.5, 4};
+    (void)unused;
+    open_fog(VIRGA_GLASS_FOG_OUTSIDE, 0.2f);
+    s.settings.opaque = true;
+    for (int i = 0; i < 3; i++)
+        s.settings.lighting.environment_sh[0][i] = 1 / 0.282095f;
+    shot_face(&s, 1, 30);
+    const double air = 0.5 / 2.5, coat = (1.5 - WATER) / (1.5 + WATER), color = 0.2 - air * air + coat * coat;
+    for (int i = 0; i < 3; i++) {
+        put_fog(um[i]);
+        const float *pixels = shot_draw(&s, false);
+        assert_float_equal(mean_of(pixels, 3, 20, WIDTH - 20), cover_of_fog(um[i]), 0.01);
+        for (int x = WIDTH / 2 - 8; x < WIDTH / 2 + 8; x++) {
+            const float *found = pixels + 4 * (HEIGHT / 2 * WIDTH + x);
+            assert_float_equal(found[1], (double)found[3] * (0.95 * color + 0.05), 0.005);
+        }
+    }
+    shot_close(&s);
+}
+
+/* Nor is the far side of metal seen, whatever condenses there. */
+static void fog_behind_what_is_not_glass_is_hidden(void **unused)
+{
+    (void)unused;
+    open_fog(VIRGA_GLASS_FOG_INSIDE, 0.5f);
+    s.settings.opaque = true;
+    put_fog(2);
+    shot_face(&s, 1, 30);
+    assert_float_equal(mean_of(shot_draw(&s, false), 3, 20, WIDTH - 20), 0, 0);
+    s.settings.condensation.side = VIRGA_GLASS_FOG_OUTSIDE;
+    shot_face(&s, -1, 30); /* from behind */
+    assert_float_equal(mean_of(shot_draw(&s, false), 3, 20, WIDTH - 20), 0, 0);
+    shot_close(&s);
+}
+
+static void a_camera_s_front_element_does_not_fog(void **unused)
+{
+    (void)unused;
+    open_fog(VIRGA_GLASS_FOG_OUTSIDE, 0.5f);
+    s.settings.style = VIRGA_GLASS_STYLE_FRONT;
+    assert_int_equal(virga_glass_set(s.glass, &s.settings), VIRGA_ERROR_INVALID);
+    s.settings.condensation.side = VIRGA_GLASS_FOG_NONE;
+    assert_int_equal(virga_glass_set(s.glass, &s.settings), VIRGA_OK);
+    shot_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +249,9 @@ int main(void)
         cmocka_unit_test(a_pane_without_fog_shows_none),
         cmocka_unit_test(a_lamp_has_a_corona),
         cmocka_unit_test(large_droplets_are_seen_as_drops),
+        cmocka_unit_test(dew_takes_the_gloss_off_what_is_not_glass),
+        cmocka_unit_test(fog_behind_what_is_not_glass_is_hidden),
+        cmocka_unit_test(a_camera_s_front_element_does_not_fog),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

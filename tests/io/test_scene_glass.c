@@ -211,6 +211,8 @@ static const struct {
     {PANE("shape: round"), "s.yaml:5: glass.0.shape: expected one of flat, windshield, mesh, got 'round'"},
     {PANE("kind: cleen"),
      "glass.0.kind: expected one of paper, clean, dirty, coated, metal, leaf, got 'cleen', did you mean 'clean'?"},
+    {PANE("style: front, condensation: {side: inside}"),
+     "glass.0.condensation.side: expected none with style: front, whose fog is the key veil"},
     {PANE("style: film"), "glass.0.style: expected one of paper, physical, textures, front, got 'film'"},
     {PANE("density: gauss"), "glass.0.density: expected one of goto, blinn, murakami, wyvill, nishimura, got 'gauss'"},
     {PANE("follow: car"), "glass.0.follow: expected one of world, camera, got 'car'"},

@@ -100,7 +100,7 @@ static const scene_row pane_rows[] = {
     OPTIONAL_NUMBER(scene_pane, kinetic_hold, 0, 1, LIVE,
                     "share of what holds a resting drop that still holds a running one; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, affinity, 0, 2, LIVE, "unevenness of the glass; else its kind's"),
-    OPTIONAL_NUMBER(scene_pane, film_um, 0, 100, LIVE, "film that a running drop leaves; else its kind's"),
+    OPTIONAL_NUMBER(scene_pane, film_um, 0, 100, LIVE, "film that a drop leaves which runs with 0.1 m/s; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, tail_max_radius_mm, 0, 2, LIVE,
                     "largest radius of drops that a running one leaves behind; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, pinning, 0, 1, LIVE,
@@ -243,6 +243,10 @@ static bool check_pane(const scene_file *scene, const scene_pane *pane, uint32_t
     if (pane->advancing_deg && pane->receding_deg && *pane->receding_deg > *pane->advancing_deg)
         return scene_file_refuse(scene, key, error, error_size, "expected at most advancing_deg (%g), got %g",
                                  *pane->advancing_deg, *pane->receding_deg);
+    snprintf(key, sizeof key, "glass.%u.condensation.side", index);
+    if (pane->style == VIRGA_GLASS_STYLE_FRONT && pane->condensation.side != VIRGA_GLASS_FOG_NONE)
+        return scene_file_refuse(scene, key, error, error_size,
+                                 "expected none with style: front, whose fog is the key veil");
     for (uint32_t i = 0; i < pane->wiper_count; i++) {
         snprintf(key, sizeof key, "glass.%u.wipers.%u", index, i);
         if (!check_wiper(scene, &pane->wipers[i], key, error, error_size))

@@ -18,15 +18,17 @@ typedef enum virga_glass_fog_side {
     /* Nothing condenses or dries. What is on the pane stays there, and is not drawn. */
     VIRGA_GLASS_FOG_NONE = 0,
 
-    /* The side on which it rains. Drops that land or run take the fog under them, and blades wipe it. */
+    /* The side on which it rains. Drops that land or run take the fog under them, and blades wipe it. On what is not
+     * glass it is dew: it takes the gloss of metal and leaves away. */
     VIRGA_GLASS_FOG_OUTSIDE = 1,
 
     /* The other side, as in a car. Rain and blades do not touch it. Where droplets grow so large that they would be
-     * drops of the pane, they run off. */
+     * drops of the pane, they run off. It is not seen on what is not glass (virga_glass_settings.opaque). */
     VIRGA_GLASS_FOG_INSIDE = 2,
 } virga_glass_fog_side;
 
-/* Condensation: the water that vapour leaves on glass below its dew point. Needs virga_glass_def.condensation.
+/* Condensation: the water that vapour leaves on glass below its dew point. Needs virga_glass_def.condensation, and no
+ * VIRGA_GLASS_STYLE_FRONT: fog on a camera's front element is virga_glass_settings.veil.
  *
  * A cell has an amount of water, as a mean thickness h. It grows by h_m (vapour of the air - saturated vapour at the
  * glass), in kg per square metre and second, and shrinks by the same where that is negative. h_m is heat_w_m2_k / 1082

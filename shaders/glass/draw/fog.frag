@@ -7,6 +7,10 @@
 // a corona, which is seen around lamps. The sum is 1. Airy's disc of the wavelength l is close to a normal distribution
 // with the standard deviation 0.21 l / r in angle; red spreads more than blue.
 //
+// A surface that is not glass is seen through the share c without its gloss, as under water (without_gloss), and
+// droplets reflect light of all directions to the eye instead: dew makes paint and leaves matt, and darker or lighter by
+// what they mirrored. Nothing is diffracted: light that has passed between droplets is scattered by the surface anyway.
+//
 // Droplets smaller than pixels are seen as grain: the number N on an area varies. That of independent ones varies by
 // sqrt(N); droplets that merge keep their distance, so GRAIN of that. Larger ones are seen as drops, with the same
 // cover. One invocation per pixel of a block with fog. Reads: the fog map, the plate and its copies. Writes: radiance.
@@ -30,6 +34,8 @@ layout(location = 0) out vec4 radiance;
 
 #define PI 3.14159265
 #define HAS_DROPLETS ((DRAW_MODE & VIRGA_GLASS_DRAW_DROPLETS) != 0u)
+#define IS_OPAQUE (SIDE == VIRGA_GLASS_DRAW_OPAQUE)
+#define THROUGH 0.95 // of the light passes a droplet's two faces; one face twice on a surface that is not glass
 #define TAPS 6
 #define TURN 2.39996323                  // rad, the golden angle
 #define WAVES vec3(0.61, 0.55, 0.46)     // micrometres: red, green, blue
@@ -103,6 +109,11 @@ vec3 corona_here(float radius_px, float turn)
 // Fog of droplets that are too small to be seen, over what is behind.
 vec4 scattered(float cover, float radius, float turn)
 {
+    if (IS_OPAQUE) {
+        const vec3 d = normalize(position);
+        const vec3 under = without_gloss(scene_light(true, gl_FragCoord.xy, d, 1.0), d, cross(along_u, along_v));
+        return vec4(cover * (mist_light + THROUGH * tint_given.rgb * under), cover);
+    }
     const float spread = 0.21 * WAVES.g * 1e-6 / max(radius, 1e-6);
     const vec3 corona = corona_here(min(spread, 0.1) / max(gain_angle.y, 1e-6), turn);
     const vec3 light = cover * mist_light + cover * (1.0 - cover) * tint_given.rgb * corona;
@@ -161,9 +172,12 @@ vec4 droplet_light(Seen seen, float pixel_m)
     const vec2 leans = way * steepest;
     const float up = sqrt(max(1.0 - dot(leans, leans), 1e-3));
     const vec3 normal = normalize(up * flat_normal + leans.x * along_u + leans.y * along_v);
+    const float height = look.cap_height * seen.radius * (1.0 - x * x); // of a flat cap
+    const Water water = Water(1.0, 0.0, height, 1.0, -leans / up, LENS.y);
+    if (IS_OPAQUE)
+        return vec4(water_light(path_through(d, water, pixel_m, true), d, water), 1.0) * seen.cover;
     const float pixels = 1.0 + (WATER - 1.0) * steepest / seen.radius * pixel_m / max(gain_angle.y, 1e-6);
-    const Path path = path_by_normal(d, normal, pixels);
-    return vec4(water_light(path, d, Water(1.0, 0.0, 0.0, 1.0, -leans / up, LENS.y)), 1.0) * seen.cover;
+    return vec4(water_light(path_by_normal(d, normal, pixels), d, water), 1.0) * seen.cover;
 }
 
 void main()
@@ -172,6 +186,8 @@ void main()
     const vec2 fog = fog_at(pane_position);
     if (fog.x <= 1e-3 || is_behind_scene())
         discard;
+    if (IS_OPAQUE && dot(position, cross(along_u, along_v)) > 0.0)
+        discard; // the back of a surface that is not glass
     const float single = HAS_DROPLETS ? smoothstep(SINGLE.x, SINGLE.y, fog.y / pixel_m) : 0.0;
     vec4 shown = vec4(0.0);
     if (single < 1.0)

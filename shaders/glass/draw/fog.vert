@@ -15,7 +15,7 @@ layout(location = 14) flat out vec4 mist_grid; // as in mist.vert
 // Estimates: what droplets show of all the world behind them, by rays that leave at their rims, and what they reflect
 // to the eye of the light on its side; a room behind a pane has so much of the light outside.
 #define WATER 1.333
-#define THROUGH 0.95 // of the light passes a droplet's two faces
+#define THROUGH 0.95 // as in fog.frag
 #define TAPS 16
 #define AROUND 0.12
 #define REFLECTED 0.05
@@ -69,5 +69,10 @@ void main()
     const float block_m = float(VIRGA_GLASS_MIST_BLOCK * look.mist_cells) * look.pane.cell_m;
     const vec2 at = vec2(number % columns, number / columns) * block_m;
     light_corner(emit_corner(min(at / vec2(look.pane.width_m, look.pane.height_m), vec2(1.0))));
-    mist_light = THROUGH * to_vec(look.tint) * light_behind() + light_around(normalize(cross(along_u, along_v)));
+    const vec3 outward = normalize(cross(along_u, along_v));
+    // Of what is not glass a fragment adds the light: it shows what is right under the droplets.
+    if ((DRAW_MODE & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE)
+        mist_light = irradiance(outward) * (REFLECTED / 3.14159265);
+    else
+        mist_light = THROUGH * to_vec(look.tint) * light_behind() + light_around(outward);
 }

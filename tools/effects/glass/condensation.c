@@ -20,7 +20,7 @@ static const scene_keyword sides[] = {{"none", VIRGA_GLASS_FOG_NONE},
 /* Ranges and defaults are the library's own: virga/glass.h. */
 static const scene_row rows[] = {
     CHOICE(scene_condensation, side, sides, "none", RESTARTS,
-           "that fogs: outside is where it rains, and drops and blades clear it"),
+           "that fogs: outside is where it rains, and drops and blades clear it; none with style: front"),
     NUMBER(scene_condensation, air_c, -40, 60, "20", LIVE, "temperature of the air there"),
     NUMBER(scene_condensation, humidity, 0, 1, "0.5", LIVE, "of that air"),
     NUMBER(scene_condensation, glass_c, -40, 60, "15", LIVE, "of the glass; it fogs below the dew point of the air"),
