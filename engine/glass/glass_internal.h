@@ -102,6 +102,8 @@ double glass_rest_deg(const virga_glass_settings *settings);
 /* See virga_glass_tick_gpu. */
 double glass_hold(const virga_glass_settings *settings);
 double glass_drag(const virga_glass_settings *settings);
+/* Speed (m/s) below which water that recedes leaves no film. */
+double glass_film_from(const virga_glass_settings *settings);
 
 /* ---- glass_shape.c */
 virga_result glass_shape_init(virga_glass *glass);

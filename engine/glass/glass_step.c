@@ -20,6 +20,7 @@
 
 #define TAIL_SHARE     0.12f /* max share of a running drop's water that a drop in its tail gets */
 #define HOLD_BACK      1.27  /* times the min radius of running drops: no glass holds larger drops, however uneven */
+#define FILM_M_S       0.1   /* the speed that settings.film_um is for */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, without half the density */
 
 /* ---- statistics */
@@ -226,7 +227,8 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     /* The largest tail drop disappears in tail_lifetime_s while the shape of its base stays the same. The rate is
      * volume / base area / time. */
     out->shrink_nl_s = (float)(cap / PI * (double)s->tail_max_radius_mm * 1e-3 * 1e12 / (double)s->tail_lifetime_s * 3);
-    out->film_m = s->film_um * 1e-6f;
+    out->trail_m = (float)((double)s->film_um * 1e-6 * pow(FILM_M_S, -2.0 / 3));
+    out->left_from_m_s = (float)glass_film_from(s);
     out->evaporation_m_s = s->evaporation_mm_h * 1e-3f / 3600;
     out->mist_nl = (float)(PI / 6 * pow((double)s->mist_max_mm * 1e-3, 3) * 1e12);
     out->cells_per_tick = ROUNDS;

@@ -13,8 +13,6 @@
 #include <math.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 #define VISCOSITY    1.002e-3 /* Pa s, of water at 20 C */
 #define SITE_M       0.004    /* side of the smallest site, or a cell where that is larger */
 #define TURNS        16u      /* ticks in which all sites have their turn, unless there are too many */
@@ -67,14 +65,6 @@ static double film_at_1_m_s(void)
 {
     const double length = sqrt(VIRGA_SURFACE_TENSION / (VIRGA_WATER_DENSITY * VIRGA_GRAVITY));
     return 0.94 * length * pow(VISCOSITY / VIRGA_SURFACE_TENSION, 2.0 / 3);
-}
-
-/* De Gennes 1986: below Ca = t^3 / (9 sqrt(3) ln(L)) the contact line keeps up with the water, and the surface stays
- * dry. t is the receding contact angle, L the ratio of the meniscus to a molecule. */
-static double film_from(const virga_glass_settings *settings)
-{
-    const double t = (double)settings->receding_deg * PI / 180, log_ratio = 15;
-    return t * t * t / (9 * sqrt(3) * log_ratio) * VIRGA_SURFACE_TENSION / VISCOSITY;
 }
 
 /* ---- a step */
@@ -133,7 +123,6 @@ void glass_fill_water(virga_glass *glass, const virga_glass_step_info *info, vir
     tick->water_spacing_m = info->water_spacing_m;
     tick->water_rounds = glass->flat ? 1 : SEARCH_STEPS;
     tick->left_m = (float)film_at_1_m_s();
-    tick->left_from_m_s = (float)film_from(&glass->settings);
     tick->recede_ticks = (uint32_t)ceil(RECEDE_S / tick_s);
     tick->break_ticks = (float)(break_s / tick_s);
     fill_pose(glass, info, tick);

@@ -115,7 +115,8 @@ struct virga_glass_tick_gpu {
     float tail_share;        /* max fraction of the runner's water that one of them gets */
     float tail_max_radius_m; /* m, max radius of one of them */
     float shrink_nl_s;       /* nl/s, loss of tail drops per square metre of their base */
-    float film_m;            /* m, thickness of the trail's film */
+    float trail_m;           /* m: film that a drop leaves at 1 m/s; it grows with the power of 2/3 of its speed */
+    float left_from_m_s;     /* m/s: slower water leaves none */
     float evaporation_m_s;   /* m/s */
     float mist_nl;           /* nl, smaller drops become part of the film */
     uint cells_per_tick;     /* max cells that a drop moves in a tick */
@@ -142,8 +143,7 @@ struct virga_glass_tick_gpu {
     float pane_velocity[3]; /* m/s */
     float low[3];           /* m, corners of a box around the surface */
     float high[3];
-    float left_m;        /* m: film that water leaves at a receding speed of 1 m/s; it grows with its power of 2/3 */
-    float left_from_m_s; /* m/s: slower water leaves none */
+    float left_m;          /* m: the same that water leaves at a receding speed of 1 m/s */
     uint recede_ticks;   /* a cell that nothing touches for so long is no more under water */
     float break_ticks;   /* mean time until the film of a site becomes a drop */
     uint sites;          /* areas of cells whose film may become drops in this tick */

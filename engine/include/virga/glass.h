@@ -348,7 +348,10 @@ typedef struct virga_glass_settings {
     /* [0.1; 3600] time in which one of them shrinks away (s). Default 12. */
     float tail_lifetime_s;
 
-    /* [0; 100] thickness of the film that a running drop leaves (micrometres). It breaks into fine drops. Default 6. */
+    /* [0; 100] thickness of the film (micrometres) that a drop leaves which runs with 0.1 m/s. It breaks into fine
+     * drops. It grows with the speed to the power of 2/3, and is 32 by 0.94 l Ca^(2/3) (Landau, Levich and Derjaguin,
+     * see virga_glass_step_info.water). Slow drops leave none, as is said there: on the paper's glass below 9 cm/s.
+     * Default that of the kind: 32, or 0 (coated, leaf). */
     float film_um;
 
     /* [0; 60] time after which a film has broken (s). Default 0.8. */

@@ -2,15 +2,23 @@
 // next cell. That is the cell ahead or one of the two beside it, at random with the affinities as weights.
 // Paper: Goto et al. 2009, section 4.1 and figure 1, after Kaneda et al. 1993.
 
+// Thickness of the film behind a drop, by its speed. As behind a plate that is drawn out of water, it grows with the
+// capillary number to the power of 2/3 (Landau and Levich 1942; Derjaguin 1943); and where the contact line keeps up
+// with the drop there is none (de Gennes 1986). So fast drops leave wet paths and soon use themselves up, and slow ones
+// leave dry glass: on a wet path a drop takes up what faster ones left, and runs faster itself.
+float film_behind(float speed)
+{
+    return speed < tick.left_from_m_s ? 0.0 : tick.trail_m * pow(speed, 2.0 / 3.0);
+}
+
 // What a drop leaves on the cell that it leaves: film, and now and then a tail. The tail is a seed; it becomes a drop
 // at the end of the tick.
 void leave_trail(uint slot, uint entry, uint cell, inout virga_glass_drop_gpu drop)
 {
     const float square_m2 = tick.pane.cell_m * tick.pane.cell_m, a = base_radius(drop.water_nl);
-    const float width = min(2.0 * a / tick.pane.cell_m, 1.0);
-    const uint left =
-        min(round_randomly(tick.film_m * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)),
-            drop.water_nl / 8u);
+    const float width = min(2.0 * a / tick.pane.cell_m, 1.0), thick = film_behind(length(to_vec2(drop.velocity)));
+    const uint left = min(round_randomly(thick * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)),
+                          drop.water_nl / 8u);
     if (left != 0u) {
         film[cell] += left;
         mark_film(cell);
