@@ -56,7 +56,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, path_ease, 0, 1, 0.6),
     SETTING(FLOAT, path_dry_s, 0.1, 600, 8),
     SETTING(FLOAT, merge_distance, 0, 2, 1.2),
-    SETTING(FLOAT, tail_spacing_m, 0.001, 1, 0.012),
+    SETTING(FLOAT, tail_spacing_m, 0.001, 1, 0.006),
     SETTING(FLOAT, tail_max_radius_mm, 0, 2, 0),
     SETTING(FLOAT, tail_lifetime_s, 0.1, 3600, 12),
     SETTING(FLOAT, film_um, 0, 100, 0),

@@ -339,7 +339,8 @@ typedef struct virga_glass_settings {
 
     /* ---- What drops leave behind. */
 
-    /* [0.001; 1] distance between the small drops that a running drop leaves behind (m). Default 0.012. */
+    /* [0.001; 1] mean distance between the small drops that a running drop leaves behind (m). A strip of water
+     * breaks into drops at 4.5 times its width (Rayleigh 1879), here of a millimetre or more. Default 0.006. */
     float tail_spacing_m;
 
     /* [0; 2] their largest radius (mm). 0: there are none. Default 0.5. */
@@ -349,9 +350,10 @@ typedef struct virga_glass_settings {
     float tail_lifetime_s;
 
     /* [0; 100] thickness of the film (micrometres) that a drop leaves which runs with 0.1 m/s. It breaks into fine
-     * drops. It grows with the speed to the power of 2/3, and is 32 by 0.94 l Ca^(2/3) (Landau, Levich and Derjaguin,
-     * see virga_glass_step_info.water). Slow drops leave none, as is said there: on the paper's glass below 9 cm/s.
-     * Default that of the kind: 32, or 0 (coated, leaf). */
+     * drops. It grows with the speed to the power of 2/3: of 0.94 l Ca^(2/3) (Landau, Levich and Derjaguin, see
+     * virga_glass_step_info.water), which is 32, a part stays as film, and the rest draws together into the small drops
+     * above. Slow drops leave none, as is said there: on the paper's glass below 9 cm/s. Default that of the kind: 12,
+     * or 0 (coated, leaf). */
     float film_um;
 
     /* [0; 60] time after which a film has broken (s). Default 0.8. */
