@@ -143,10 +143,10 @@ struct virga_glass_tick_gpu {
     float pane_velocity[3]; /* m/s */
     float low[3];           /* m, corners of a box around the surface */
     float high[3];
-    float left_m;          /* m: the same that water leaves at a receding speed of 1 m/s */
-    uint recede_ticks;   /* a cell that nothing touches for so long is no more under water */
-    float break_ticks;   /* mean time until the film of a site becomes a drop */
-    uint sites;          /* areas of cells whose film may become drops in this tick */
+    float left_m;      /* m: the same that water leaves at a receding speed of 1 m/s */
+    uint recede_ticks; /* a cell that nothing touches for so long is no more under water */
+    float break_ticks; /* mean time until the film of a site becomes a drop */
+    uint sites;        /* areas of cells whose film may become drops in this tick */
     uint site_columns;
     uint first_site_row;
     uint site_cells; /* along a side of a site */

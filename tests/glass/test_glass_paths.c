@@ -187,8 +187,9 @@ static bool look_at_film(uint32_t id, uint32_t *column, uint32_t *row, double *n
     return true;
 }
 
-/* Landau, Levich and Derjaguin: three eighths of 0.94 l Ca^(2/3), or film_um (v / 0.1 m/s)^(2/3) to 2 %. One cell in each look,
- * left at the speed of that tick, to 5 % for the rounding of single cells to nanolitres; their sum to 1 %. */
+/* Landau, Levich and Derjaguin: three eighths of 0.94 l Ca^(2/3), or film_um (v / 0.1 m/s)^(2/3) to 2 %. One cell in
+ * each look, left at the speed of that tick, to 5 % for the rounding of single cells to nanolitres; their sum to 1 %.
+ */
 static void a_running_drop_leaves_film_by_its_speed(void **unused)
 {
     (void)unused;

@@ -323,10 +323,8 @@ typedef struct virga_glass_settings {
     /* [0; 1] share of steps to the side, even on even glass. Default 0.1. */
     float meander;
 
-    /* [0; 1] share by which a wet path lowers the force that holds the drops which follow on it. Their fronts advance
-     * over wet glass then, so it is (cos wet - cos advancing) / (cos receding - cos advancing), with the contact angle
-     * on wet glass; 1: no wet glass holds drops. A path beside the way of a drop draws it in. Its own trail does not
-     * ease a drop. Default 0.6. */
+    /* [0; 1] share by which a wet path before a drop lowers the force that holds it: with the contact angle on wet glass
+     * (cos wet - cos advancing) / (cos receding - cos advancing). A path beside its way draws it in. Default 0.6. */
     float path_ease;
 
     /* [0.1; 600] time in which a path dries (s). Default 8. */
@@ -339,8 +337,8 @@ typedef struct virga_glass_settings {
 
     /* ---- What drops leave behind. */
 
-    /* [0.001; 1] mean distance between the small drops that a running drop leaves behind (m). A strip of water
-     * breaks into drops at 4.5 times its width (Rayleigh 1879), here of a millimetre or more. Default 0.006. */
+    /* [0.001; 1] mean distance between the small drops that a running drop leaves behind (m): 4.5 times the width of
+     * the strip of water that breaks (Rayleigh 1879). Default 0.006. */
     float tail_spacing_m;
 
     /* [0; 2] their largest radius (mm). 0: there are none. Default 0.5. */
@@ -349,11 +347,9 @@ typedef struct virga_glass_settings {
     /* [0.1; 3600] time in which one of them shrinks away (s). Default 12. */
     float tail_lifetime_s;
 
-    /* [0; 100] thickness of the film (micrometres) that a drop leaves which runs with 0.1 m/s. It breaks into fine
-     * drops. It grows with the speed to the power of 2/3: of 0.94 l Ca^(2/3) (Landau, Levich and Derjaguin, see
-     * virga_glass_step_info.water), which is 32, a part stays as film, and the rest draws together into the small drops
-     * above. Slow drops leave none, as is said there: on the paper's glass below 9 cm/s. Default that of the kind: 12,
-     * or 0 (coated, leaf). */
+    /* [0; 100] thickness of the film (micrometres) that a drop leaves which runs with 0.1 m/s. It grows with the speed
+     * to the power of 2/3, and slow drops leave none, see virga_glass_step_info.water. Of the 32 by that law the rest
+     * draws together into the small drops above. It breaks into fine drops. Default 12; coated and leaf: 0. */
     float film_um;
 
     /* [0; 60] time after which a film has broken (s). Default 0.8. */

@@ -8,8 +8,9 @@
 // with the standard deviation 0.21 l / r in angle; red spreads more than blue.
 //
 // A surface that is not glass is seen through the share c without its gloss, as under water (without_gloss), and
-// droplets reflect light of all directions to the eye instead: dew makes paint and leaves matt, and darker or lighter by
-// what they mirrored. Nothing is diffracted: light that has passed between droplets is scattered by the surface anyway.
+// droplets reflect light of all directions to the eye instead: dew makes paint and leaves matt, and darker or lighter
+// by what they mirrored. Nothing is diffracted: light that has passed between droplets is scattered by the surface
+// anyway.
 //
 // Droplets smaller than pixels are seen as grain: the number N on an area varies. That of independent ones varies by
 // sqrt(N); droplets that merge keep their distance, so GRAIN of that. Larger ones are seen as drops, with the same

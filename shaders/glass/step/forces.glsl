@@ -31,9 +31,8 @@ struct Front {
 };
 
 // The advancing angle is large on dry glass only. On a film the contact line has no dry edge to move over: the angle is
-// nearly 0, and what is left is the viscous drag of the wedge, cut off at the film's thickness (de Gennes 1985,
-// "Wetting: statics and dynamics"). So a drop that follows a path is held less, and one that comes to the end of a path
-// is held again.
+// nearly 0, and what is left is the viscous drag of the wedge, cut off at the film's thickness (de Gennes 1985). So a
+// drop that follows a path is held less, and one that comes to the end of a path is held again.
 //
 // The front is the half circle of radius a at the angles p from the way. A point of it is y = a sin p to the left.
 // Where it meets wet glass, surface tension pulls outwards with D = sigma (cos wet - cos advancing) more per length:
