@@ -13,7 +13,8 @@
  * Coated glass: in the published range for silane coatings (hysteresis of 10 to 15 degrees).
  * Leaf: a waxy leaf. Some have larger angles still, e.g. lotus.
  * Film: 0.94 l Ca^(2/3) is 32 micrometers at 0.1 m/s, see glass_water.c. Three eighths of it stay where they are, an
- * estimate; the rest draws together into the drops of the tail. On coatings and leaves drops are too slow for any.
+ * estimate; the rest draws together into the drops of the tail. They are 4.5 times the width of a strip of water apart
+ * (Rayleigh 1879): 6 mm. On coatings and leaves drops are too slow for any.
  * Pinning goes with the hysteresis, the difference of the two angles. The paper has none. */
 static const struct {
     float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity, pinning;

@@ -337,8 +337,7 @@ typedef struct virga_glass_settings {
 
     /* ---- What drops leave behind. */
 
-    /* [0.001; 1] mean distance between the small drops that a running drop leaves behind (m): 4.5 times the width of
-     * the strip of water that breaks (Rayleigh 1879). Default 0.006. */
+    /* [0.001; 1] mean distance between the small drops that a running drop leaves behind (m). Default 0.006. */
     float tail_spacing_m;
 
     /* [0; 2] their largest radius (mm). 0: there are none. Default 0.5. */
@@ -347,9 +346,8 @@ typedef struct virga_glass_settings {
     /* [0.1; 3600] time in which one of them shrinks away (s). Default 12. */
     float tail_lifetime_s;
 
-    /* [0; 100] thickness of the film (micrometres) that a drop leaves which runs with 0.1 m/s. It grows with the speed
-     * to the power of 2/3, and slow drops leave none, see virga_glass_step_info.water. Of the 32 by that law the rest
-     * draws together into the small drops above. It breaks into fine drops. Default 12; coated and leaf: 0. */
+    /* [0; 100] thickness of the film (micrometres) that a drop leaves at 0.1 m/s; fine drops in the end. By the law in
+     * virga_glass_step_info.water it grows with the speed, and slow drops leave none. Default 12; coated, leaf: 0. */
     float film_um;
 
     /* [0; 60] time after which a film has broken (s). Default 0.8. */
