@@ -14,7 +14,7 @@
  * Leaf: a waxy leaf. Some have larger angles still, e.g. lotus.
  * Film: 0.94 l Ca^(2/3) is 32 micrometers at 0.1 m/s, see glass_water.c. Three eighths of it stay where they are, an
  * estimate; the rest draws together into the drops of the tail. They are 4.5 times the width of a strip of water apart
- * (Rayleigh 1879): 6 mm. On coatings and leaves drops are too slow for any.
+ * (Rayleigh 1879): 6 mm. Wax on paint keeps less, and on coatings and leaves drops are too slow for any.
  * Pinning goes with the hysteresis, the difference of the two angles. The paper has none. */
 static const struct {
     float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity, pinning;
@@ -23,7 +23,7 @@ static const struct {
     [VIRGA_GLASS_KIND_CLEAN] = {35, 15, 0.5f, 12, 0.5f, 0.3f, 0.8f},
     [VIRGA_GLASS_KIND_DIRTY] = {65, 20, 0.7f, 12, 0.7f, 0.9f, 1},
     [VIRGA_GLASS_KIND_COATED] = {112, 98, 0.5f, 0, 0.15f, 0.3f, 0.15f},
-    [VIRGA_GLASS_KIND_METAL] = {80, 50, 0.6f, 12, 0.4f, 0.5f, 0.6f},
+    [VIRGA_GLASS_KIND_METAL] = {80, 50, 0.6f, 3, 0.4f, 0.5f, 0.6f},
     [VIRGA_GLASS_KIND_LEAF] = {130, 115, 0.4f, 0, 0, 0.4f, 0.1f},
 };
 

@@ -323,7 +323,7 @@ typedef struct virga_glass_settings {
     /* [0; 1] share of steps to the side, even on even glass. Default 0.1. */
     float meander;
 
-    /* [0; 1] share by which a wet path before a drop lowers the force that holds it: with the contact angle on wet glass
+    /* [0; 1] share by which a wet path before a drop lowers the force that holds it: by the contact angle on wet glass
      * (cos wet - cos advancing) / (cos receding - cos advancing). A path beside its way draws it in. Default 0.6. */
     float path_ease;
 
@@ -347,7 +347,7 @@ typedef struct virga_glass_settings {
     float tail_lifetime_s;
 
     /* [0; 100] thickness of the film (micrometres) that a drop leaves at 0.1 m/s; fine drops in the end. By the law in
-     * virga_glass_step_info.water it grows with the speed, and slow drops leave none. Default 12; coated, leaf: 0. */
+     * virga_glass_step_info.water it grows with the speed, and slow drops leave none. 12; metal: 3; coated, leaf: 0. */
     float film_um;
 
     /* [0; 60] time after which a film has broken (s). Default 0.8. */
