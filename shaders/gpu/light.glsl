@@ -1,8 +1,9 @@
 // light.glsl - light around a drop: environment and lamps. The includer has gpu/vectors.glsl and a block with a member
 // `virga_view_gpu view`.
 
-#ifndef SH_FETCHED // otherwise the includer defines this function
-vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
+#define uniform_coefficient(i) vec3(view.sh[3u * (i)], view.sh[3u * (i) + 1u], view.sh[3u * (i) + 2u])
+#ifndef SH_FETCHED // otherwise the includer defines it
+#define sh_coefficient(i) uniform_coefficient(i)
 #endif
 
 // The environment in direction d, seen through a lobe with the Legendre moments 1, g.x, g.y: each band of the spherical
@@ -10,12 +11,12 @@ vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u],
 // on average: nearly the whole environment.
 vec3 environment(vec3 d, vec2 g)
 {
+    const vec3 first = g.x * 0.488603 * d, second = g.y * 1.092548 * d.xyz * d.yzx;
+    const float sixth = g.y * 0.315392 * (3.0 * d.z * d.z - 1.0), eighth = g.y * 0.546274 * (d.x * d.x - d.y * d.y);
     vec3 sum = sh_coefficient(0u) * 0.282095;
-    sum += g.x * 0.488603 * (sh_coefficient(1u) * d.y + sh_coefficient(2u) * d.z + sh_coefficient(3u) * d.x);
-    sum += g.y * 1.092548 *
-           (sh_coefficient(4u) * d.x * d.y + sh_coefficient(5u) * d.y * d.z + sh_coefficient(7u) * d.x * d.z);
-    sum += g.y * 0.315392 * sh_coefficient(6u) * (3.0 * d.z * d.z - 1.0);
-    sum += g.y * 0.546274 * sh_coefficient(8u) * (d.x * d.x - d.y * d.y);
+    sum += sh_coefficient(1u) * first.y + sh_coefficient(2u) * first.z + sh_coefficient(3u) * first.x;
+    sum += sh_coefficient(4u) * second.x + sh_coefficient(5u) * second.y + sh_coefficient(7u) * second.z;
+    sum += sh_coefficient(6u) * sixth + sh_coefficient(8u) * eighth;
     return max(sum, vec3(0.0));
 }
 

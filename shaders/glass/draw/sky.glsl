@@ -1,11 +1,12 @@
-// sky.glsl - for gpu/light.glsl: the environment's coefficients, fetched as texels of the view. One fetch reads four
-// words; in a fragment shader software Vulkan reads each word of a uniform buffer lane by lane. They are too many for
-// flat inputs.
+// sky.glsl - for gpu/light.glsl: the environment's coefficients in a fragment shader. A GPU reads a constant of a view
+// once for all pixels of a wave. Software Vulkan reads each word of a uniform buffer pixel by pixel, so there they are
+// texels of the view, of which one fetch reads four words. They are too many for flat inputs.
+#include "gpu/variants.glsl"
 #define SH_FETCHED
 layout(location = 12) flat in uint view_texel; // first texel of the view
 layout(set = 0, binding = 28) uniform usamplerBuffer view_texels;
 
-vec3 sh_coefficient(uint i)
+vec3 fetched_coefficient(uint i)
 {
     const uint word = VIRGA_VIEW_SH_WORD + 3u * i, texel = view_texel + word / 4u, first = word % 4u;
     const uvec4 low = texelFetch(view_texels, int(texel)), high = texelFetch(view_texels, int(texel + 1u));
@@ -15,3 +16,5 @@ vec3 sh_coefficient(uint i)
                                       : uvec3(low.w, high.xy);
     return uintBitsToFloat(words);
 }
+
+#define sh_coefficient(i) (FOR_GPU ? uniform_coefficient(i) : fetched_coefficient(i))
