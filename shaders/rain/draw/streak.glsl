@@ -22,6 +22,7 @@ struct Streak {
     float focus; // [0; 1] 0: the lens blurs it by more than its width, so the inside of the drop does not show
     float wave_turns, wave_turns_at_tail, wave_size;
     vec3 middle_line; // see line_equation
+    vec3 middle_ray;  // from the camera to the middle of the path, with a view depth of 1 m
     // of this vertex
     vec4 position;
     float across, along; // px from the center line; px from the tail
@@ -40,6 +41,9 @@ Streak streak_corner(uint vertex)
     const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const vec2 path = (head - tail) * half_viewport;
     const bool at_head = (vertex & 2u) != 0u;
+    const vec2 distances = uintBitsToFloat(depths.zw);
+    // The middle in space, on the picture: perspective moves it towards the end that is farther away.
+    const vec2 middle = (head * distances.x + tail * distances.y) / (distances.x + distances.y);
 
     Streak streak;
     streak.center = vec3(light[0], light[1].x);
@@ -47,7 +51,7 @@ Streak streak_corner(uint vertex)
     streak.alpha = width_alpha.y;
     streak.half_width = 0.5 * width_alpha.x;
     streak.body_px = body_wave.x;
-    const float blur = blur_px(0.5 * (uintBitsToFloat(depths.z) + uintBitsToFloat(depths.w)));
+    const float blur = blur_px(0.5 * (distances.x + distances.y));
     streak.focus = clamp(4.0 * (width_alpha.x / max(blur, 1e-3) - 1.05), 0.0, 1.0);
     streak.way_px = length(path);
     streak.wave_turns = wave_turns.x;
@@ -60,9 +64,10 @@ Streak streak_corner(uint vertex)
     const float side_sign = LINES ? 0.0 : (vertex & 1u) == 0u ? -1.0 : 1.0;
     streak.across = side_sign * (streak.half_width + 0.5);
     streak.along = at_head ? streak.way_px + margin : -margin;
-    streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
+    streak.distance = at_head ? distances.x : distances.y;
     const vec2 side = vec2(-along.y, along.x);
     streak.middle_line = line_equation(tail, side);
+    streak.middle_ray = to_vec(view.right) * middle.x + to_vec(view.up) * middle.y + to_vec(view.ahead);
     const vec2 corner =
         (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // w is 1 at all corners, so that everything is interpolated without perspective.

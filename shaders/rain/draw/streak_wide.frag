@@ -16,6 +16,7 @@ layout(location = 1) flat in vec4 center_alpha;
 layout(location = 2) flat in vec4 rim_wave;
 layout(location = 3) flat in vec4 shape;
 layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
+layout(location = 6) flat in vec3 lamp_light;
 layout(location = 0) out vec4 radiance;
 
 // What a drop shows at (u, v) of its disc: the ray is deflected by 2 (i - t), sin i = r, towards the other side, so the
@@ -68,9 +69,8 @@ void main()
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
     const float along = body_px > 0.0 ? clamp((streak_position.y - 0.5 * path_px) / (0.5 * body_px), -1.0, 1.0) : 0.0;
-    const vec3 lamps = max(center_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
     const float lens_blend = focus * clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
-    light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamps, lens_blend);
+    light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamp_light, lens_blend);
     radiance = for_target(vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);

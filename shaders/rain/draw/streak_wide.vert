@@ -16,6 +16,8 @@ layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
 // x: half width; y: length of the drop; z: length of the path (px); w: focus, see Streak
 layout(location = 3) flat out vec4 shape;
 layout(location = 5) flat out vec4 depth_terms;
+// What the light of the middle has of lamps: the record has the sum, see set_light in streak_write.comp.
+layout(location = 6) flat out vec3 lamp_light;
 
 #include "gpu/own_view.glsl"
 
@@ -30,6 +32,7 @@ void main()
     center_alpha = vec4(streak.center, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
     shape = vec4(streak.half_width, streak.body_px, streak.way_px, streak.focus);
+    lamp_light = max(streak.center - environment(normalize(streak.middle_ray), vec2(0.97, 0.90)), vec3(0.0));
     if (HAS_DEPTH)
         depth_terms = vec4(view.depth_a, view.depth_b, view.far_depth, view.soft_m);
 }
