@@ -6,7 +6,7 @@ layout(scalar, set = 0, binding = 19) readonly buffer Corners { uint corners[]; 
 // Four vertices per quad: lower left, lower right, upper left, upper right.
 Corner emit_tile_corner(uint vertex)
 {
-    const uint at = look.bounds_offset + vertex / 4u * 2u, number = corners[at], box = corners[at + 1u];
+    const uint at = look.bounds_offset + vertex / 4u * 2u, tile = corners[at], box = corners[at + 1u];
     const float side = float(VIRGA_GLASS_TILE);
     vec2 low = max(vec2(box & 15u, box >> 4 & 15u) - 1.0 - look.beside, 0.0);
     vec2 high = min(vec2(box >> 8 & 15u, box >> 12 & 15u) + look.beside, side);
@@ -16,6 +16,6 @@ Corner emit_tile_corner(uint vertex)
     low -= OVERLAP * vec2(in_part) * vec2(equal(low, vec2(0.0)));
     high += OVERLAP * vec2(in_part) * vec2(equal(high, vec2(side)));
     const bvec2 at_high = bvec2((vertex & 1u) != 0u, (vertex & 2u) != 0u);
-    const vec2 texel = vec2(number % look.tile_columns, number / look.tile_columns) * side + mix(low, high, at_high);
+    const vec2 texel = vec2(tile & 0xffffu, tile >> 16) * side + mix(low, high, at_high);
     return emit_corner(clamp(texel / vec2(look.map_columns, look.map_rows), vec2(0.0), vec2(1.0)));
 }

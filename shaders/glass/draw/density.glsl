@@ -82,15 +82,21 @@ float density_inverse(float v)
 }
 
 #ifdef DENSITY_SPECIAL
+#include "gpu/variants.glsl"
+
 // Compression: Goto et al. 2009, equation 2, repeated with a rising V0. The loop has a constant length; Texel in
 // height.glsl says why.
 #define MAX_STEPS (USUAL_STEPS ? VIRGA_GLASS_USUAL_STEPS : 16u)
 float compressed(float v)
 {
+    const uint steps = look.compress_steps;
+    const float step_up = look.compress_step, share = 1.0 - look.compress_k;
     float from = look.compress_from;
+    if (FOR_GPU && v <= from)
+        return v; // V0 only rises, so no step changes it: so it is with most texels
     for (uint i = 0u; i < MAX_STEPS; i++) {
-        v -= (i < look.compress_steps ? 1.0 - look.compress_k : 0.0) * max(v - from, 0.0);
-        from += look.compress_step;
+        v -= (i < steps ? share : 0.0) * max(v - from, 0.0);
+        from += step_up;
     }
     return v;
 }

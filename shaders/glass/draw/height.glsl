@@ -34,7 +34,7 @@
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
 #define MAX_CELLS 14  // max cells along a side that a tile lies on or beside, where beads have a shape
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = TILE, local_size_y = LANES / TILE) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
 layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; }; // four texels of the mist map in a word
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
@@ -190,17 +190,19 @@ uint write_texel(ivec2 at, Texel texel)
 
 // Adds the tile to the list of the next pass. One invocation per tile does so, and only once for a tile that is
 // processed twice.
-void list_tile(uint number, uint before)
+void list_tile(uvec2 tile, uint before)
 {
     if (PAPER || (before & VIRGA_GLASS_LISTED) != 0u)
         return;
     const uint index = atomicAdd(work.relief_tiles, 1u);
-    work_list[2u * look.max_tiles + look.max_blocks + index] = number;
-    atomicMax(work.relief_groups[0], min(index + 1u, VIRGA_GLASS_TILE_ROW));
-    atomicMax(work.relief_groups[1], index / VIRGA_GLASS_TILE_ROW + 1u);
+    work_list[2u * look.max_tiles + look.max_blocks + index] = packed_tile(tile);
+    if (index < VIRGA_GLASS_TILE_ROW)
+        atomicMax(work.relief_groups[0], index + 1u);
+    if (index % VIRGA_GLASS_TILE_ROW == 0u) // the first of a row
+        atomicMax(work.relief_groups[1], index / VIRGA_GLASS_TILE_ROW + 1u);
 }
 
-// The tile of this workgroup. A workgroup beyond the end of the list processes the last tile again.
+// The tile of this workgroup, packed. A workgroup beyond the end of the list processes the last tile again.
 uint tile_of_group()
 {
     const uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
@@ -230,7 +232,7 @@ void place_texels(ivec2 first)
 // Returns bits: columns and rows of the tile that have water, and whether there may be something to draw.
 uint write_texels(ivec2 first)
 {
-    const uint column = gl_LocalInvocationIndex % TILE, row = gl_LocalInvocationIndex / TILE;
+    const uint column = gl_LocalInvocationID.x, row = gl_LocalInvocationID.y;
     uint rows = 0u, shown = 0u;
 #define PUT(i)                                                         \
     {                                                                  \
@@ -264,9 +266,9 @@ uint or_reduce(uint own)
 // Without a branch around everything: inside a branch software Vulkan reads lane by lane.
 void gather()
 {
-    const uint number = tile_of_group();
-    const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
-    const ivec2 first = tile * TILE + ivec2(gl_LocalInvocationIndex % TILE, gl_LocalInvocationIndex / TILE);
+    const ivec2 tile = unpacked_tile(tile_of_group());
+    const uint number = tile_number(uvec2(tile));
+    const ivec2 first = tile * TILE + ivec2(gl_LocalInvocationID.xy);
     const uint count = tiles[number].count;
     const uint tile_index = uint(tile.x) + uint(tile.y) * look.written_columns, before_map = written[tile_index];
     reach = density_reach();
@@ -288,5 +290,5 @@ void gather()
     const uint before = atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u) |
                                                          (found & 0xffffu) << VIRGA_GLASS_SPANS_BIT);
     if (shown || relief != 0u)
-        list_tile(number, before);
+        list_tile(uvec2(tile), before);
 }

@@ -30,8 +30,8 @@ void load_sheets(ivec2 first)
         barrier();
     sheets_low = ivec2(floor(middle_of(first) / look.pane.cell_m - 0.5));
     const ivec2 span = min(ivec2(texel_m() * float(TILE - 1) / look.pane.cell_m) + 3, ivec2(SHEETS));
-    for (int y = int(gl_LocalInvocationIndex / TILE); y < span.y; y += LANES / TILE)
-        for (int x = int(gl_LocalInvocationIndex % TILE); x < span.x; x += TILE)
+    for (int y = int(gl_LocalInvocationID.y); y < span.y; y += LANES / TILE)
+        for (int x = int(gl_LocalInvocationID.x); x < span.x; x += TILE)
             SHEET(x, y) = sheet_m(sheets_low + ivec2(x, y));
     barrier();
 #endif

@@ -8,7 +8,7 @@
 #include "view.glsl"
 #include "tiles.glsl"
 
-layout(local_size_x = LANES) in;
+layout(local_size_x = TILE, local_size_y = LANES / TILE) in;
 layout(constant_id = 0) const uint MODE = 0u; // 1: the pane has a mask
 #define MASKED (MODE != 0u)
 #include "mask.glsl"
@@ -84,7 +84,7 @@ void write_tile(ivec2 first, bool shown)
 #else // 64
 void write_tile(ivec2 first, bool shown)
 {
-    const ivec2 at = first + ivec2(gl_LocalInvocationIndex % TILE, gl_LocalInvocationIndex / TILE);
+    const ivec2 at = first + ivec2(gl_LocalInvocationID.xy);
     const vec2 before = vec2(height_of(texel_at(at - ivec2(1, 0))), height_of(texel_at(at - ivec2(0, 1))));
     const vec2 after = vec2(height_of(texel_at(at + ivec2(1, 0))), height_of(texel_at(at + ivec2(0, 1))));
     write_texel(at, shown, texel_at(at), before, after);
@@ -94,9 +94,9 @@ void write_tile(ivec2 first, bool shown)
 void relief()
 {
     const uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
-    const uint number = work_list[2u * look.max_tiles + look.max_blocks + min(index, work.relief_tiles - 1u)];
-    const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
-    const bool shown = (tiles[number].film & VIRGA_GLASS_SHOWN) != 0u;
+    const ivec2 tile =
+        unpacked_tile(work_list[2u * look.max_tiles + look.max_blocks + min(index, work.relief_tiles - 1u)]);
+    const bool shown = (tiles[tile_number(uvec2(tile))].film & VIRGA_GLASS_SHOWN) != 0u;
     write_tile(tile * TILE, shown);
     const uint tile_index = uint(tile.x) + uint(tile.y) * look.written_columns;
     if (gl_LocalInvocationIndex == 0u && index < work.relief_tiles)

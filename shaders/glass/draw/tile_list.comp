@@ -48,7 +48,8 @@ void main()
         entries = cut = listed[0] = listed[1] = 0u;
     barrier();
     const uint count = look.tile_columns * look.tile_rows, i = gl_GlobalInvocationID.x, clamped = min(i, count - 1u);
-    const uint before_map = written[clamped % look.tile_columns + clamped / look.tile_columns * look.written_columns];
+    const uvec2 tile = uvec2(clamped % look.tile_columns, clamped / look.tile_columns);
+    const uint before_map = written[tile.x + tile.y * look.written_columns];
     const uint ball_count = tiles[clamped].count, film = tiles[clamped].film;
     const bool fits = work.entries <= look.max_entries || ball_count <= look.max_entries / count;
     const uint entry_count = i < count && fits ? ball_count : 0u;
@@ -66,7 +67,7 @@ void main()
         allocate();
     barrier();
     if (needed) {
-        work_list[number + first_listed[film] + film * look.max_tiles] = i;
+        work_list[number + first_listed[film] + film * look.max_tiles] = packed_tile(tile);
         tiles[i].first = entry + first_entry;
         tiles[i].count = entry_count;
     }

@@ -63,6 +63,7 @@ void main()
     corners[3u * index] = uvec2(first, first + 1u);
     corners[3u * index + 1u] = uvec2(first + 2u);
     corners[3u * index + 2u] = uvec2(first + 1u, first + 3u);
-    corners[look.bounds_offset / 2u + index] = uvec2(i, uint(findLSB(columns)) | uint(findLSB(rows)) << 4 |
-                                                       uint(findMSB(columns)) << 8 | uint(findMSB(rows)) << 12);
+    corners[look.bounds_offset / 2u + index] =
+        uvec2(packed_tile(uvec2(tile)), uint(findLSB(columns)) | uint(findLSB(rows)) << 4 |
+                                            uint(findMSB(columns)) << 8 | uint(findMSB(rows)) << 12);
 }

@@ -20,6 +20,11 @@ void tiles_around(vec2 middle, float reach_m, out ivec2 first, out ivec2 last)
     last = min(ivec2(floor(clamp((middle + reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), last_tile);
 }
 
+// In lists a tile is its column and row, u16 each: a pass over a list then has no division, which each invocation of a
+// tile would repeat.
+uint packed_tile(uvec2 tile) { return tile.x | tile.y << 16; }
+ivec2 unpacked_tile(uint packed) { return ivec2(packed & 0xffffu, packed >> 16); }
+
 uint tile_number(uvec2 tile) { return tile.x + tile.y * look.tile_columns; }
 
 // The tiles of a ball, along u and along v: the first | their count << 16. Computed once and kept with the ball: the
@@ -30,6 +35,16 @@ uvec2 tiles_reached(vec2 middle, float reach_m)
     ivec2 first, last;
     tiles_around(middle, reach_m, first, last);
     return uvec2(first) | uvec2(max(last - first + 1, ivec2(0))) << 16;
+}
+
+// Marks the tiles that film with a shape on a cell reaches.
+void mark_film_tiles(uvec2 cell)
+{
+    ivec2 first, last;
+    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
+    for (int y = first.y; y <= last.y; y++)
+        for (int x = first.x; x <= last.x; x++)
+            atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
 }
 
 // A ball's reach. Mist is spread over one texel.
