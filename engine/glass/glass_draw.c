@@ -9,18 +9,21 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
+#include <virga/shared/random.h>
+
 #include "shaders/glass_shaders.h"
 
 #include <math.h>
 #include <string.h>
 
-#define TILE       VIRGA_GLASS_TILE
-#define BLOCK      VIRGA_GLASS_MIST_BLOCK
-#define PI         3.14159265358979323846
-#define GRAVITY    9.80665
-#define UNSEEN     0.0078 /* texels: a pixel this close to a dry texel does not show the wet texel beside it */
-#define SINGLE_PX  0.7    /* as SINGLE.x in shaders/glass/draw/fog.frag */
-#define MIN_TEXELS 64u    /* min texels of the map along the pane's longer side, at any distance */
+#define TILE        VIRGA_GLASS_TILE
+#define BLOCK       VIRGA_GLASS_MIST_BLOCK
+#define PI          3.14159265358979323846
+#define GRAVITY     9.80665
+#define BEAD_STREAM 0x6265u /* of random numbers: beads of film */
+#define UNSEEN      0.0078  /* texels: a pixel this close to a dry texel does not show the wet texel beside it */
+#define SINGLE_PX   0.7     /* as SINGLE.x in shaders/glass/draw/fog.frag */
+#define MIN_TEXELS  64u     /* min texels of the map along the pane's longer side, at any distance */
 
 /* ---- the size of the pane in a view */
 
@@ -201,6 +204,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->max_entries = glass->picture.max_entries;
     look->bounds_offset = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
+    look->bead_seed = virga_hash2(glass->def.seed, BEAD_STREAM);
     look->whole_map = glass->picture.whole_map;
     glass_fill_fog_look(glass, look);
     look->sheets = s->style == VIRGA_GLASS_STYLE_PHYSICAL || look->whole_map;
@@ -285,9 +289,11 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     virga_dispatch(context, cmd, picture->mist_blocks, (blocks + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->mist_passes[mode], offsetof(virga_glass_work_gpu, mist_groups));
-    virga_indirect_barrier(context, cmd);
-    over_work(glass, cmd, picture->film_tiles, offsetof(virga_glass_work_gpu, block_groups));
-    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_COPIES);
+    if (context->for_software) { /* on a GPU the pass above marks the tiles itself */
+        virga_indirect_barrier(context, cmd);
+        over_work(glass, cmd, picture->film_tiles, offsetof(virga_glass_work_gpu, block_groups));
+    }
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES);
     const VkBufferImageCopy copy = {.bufferRowLength = mist_pitch(picture),
                                     .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {picture->mist_size.width, picture->mist_size.height, 1}};

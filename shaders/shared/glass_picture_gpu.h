@@ -77,6 +77,7 @@ struct virga_glass_picture_gpu {
     uint sheets;         /* 1: sheets of film are shown */
     uint whole_map;      /* 1: the host reads the map, so all of it is written */
     uint masked;         /* 1: the pane has a mask */
+    uint bead_seed;      /* hash of the pane's seed, for beads of film */
     /* from positions relative to the camera to the previous frame's clip space, for points that are fixed on the
      * pane */
     float previous_from_here[16];

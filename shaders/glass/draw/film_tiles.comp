@@ -1,4 +1,4 @@
-// film_tiles.comp - marks the tiles that have film with a shape.
+// film_tiles.comp - marks the tiles that have film with a shape. For software Vulkan: on a GPU mist.comp does it.
 // One workgroup per block of cells that has such film. Reads: film. Writes: the tiles' flags.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -16,16 +16,6 @@ bool has_shape(uint number)
     return film[number] != 0u && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
 }
 
-void mark_tiles(uvec2 cell)
-{
-    const float reach_m = 1.6 * look.pane.cell_m;
-    ivec2 first, last;
-    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, reach_m, first, last);
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++)
-            atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
-}
-
 void main()
 {
     const uint block = work_list[2u * look.max_tiles + gl_WorkGroupID.x],
@@ -34,6 +24,6 @@ void main()
     for (uint i = gl_LocalInvocationIndex; i < side * side; i += 64u) {
         const uvec2 cell = corner + uvec2(i % side, i / side);
         if (cell.x < look.pane.columns && cell.y < look.pane.rows && has_shape(cell.x + cell.y * look.pane.columns))
-            mark_tiles(cell);
+            mark_film_tiles(cell);
     }
 }

@@ -1,12 +1,15 @@
 // mist.comp - the mist map: the part of each cell that is covered by beads of film too small for a shape. A texel
-// covers several cells where cells are smaller than pixels. Blocks with mist get a quad to draw; blocks with film that
-// has a shape are listed.
-// One workgroup per block that may have film. Reads: film. Writes: the mist map, index buffer, work lists.
+// covers several cells where cells are smaller than pixels. Blocks with mist get a quad to draw. Tiles with film that
+// has a shape are marked on a GPU. Software Vulkan, which would run those loops for every cell, lists the blocks with
+// such film for film_tiles.comp.
+// One workgroup per block that may have film. Reads: film. Writes: the mist map, index buffer, work lists, flags.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
+#include "tiles.glsl"
 #include "beads.glsl"
+#include "gpu/variants.glsl"
 
 #define PACKED 4u // texels of one invocation, in one word
 
@@ -16,11 +19,6 @@ layout(constant_id = 0) const uint MODE = 0u;
 layout(local_size_x = VIRGA_GLASS_MIST_BLOCK / PACKED, local_size_y = VIRGA_GLASS_MIST_BLOCK) in;
 layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
 layout(scalar, set = 0, binding = 9) writeonly buffer Mist { uint mist[]; }; // four texels in a word
-layout(scalar, set = 0, binding = 18) buffer Work
-{
-    virga_glass_work_gpu work;
-    uint work_list[];
-};
 layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 
 shared uint any_mist, any_shape;
@@ -38,7 +36,10 @@ float cell_mist(uvec2 cell, inout bool has_shape)
     const float fresh = film_fresh(wetted_tick);
     const vec2 radii = bead_radii(number, float(water) * (1.0 - fresh)), shapes = bead_shapes(radii);
     const float covered = dot(radii * radii, 1.0 - shapes) * 3.14159265 / (look.pane.cell_m * look.pane.cell_m);
-    has_shape = has_shape || (has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0));
+    const bool shaped = has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
+    if (FOR_GPU && shaped)
+        mark_film_tiles(cell);
+    has_shape = has_shape || shaped;
     return has_water ? min(covered, 1.0) : 0.0;
 }
 
@@ -79,13 +80,13 @@ void main()
     mist[(first.x + first.y * look.mist_pitch) / PACKED] = word;
     if (word != 0u)
         atomicOr(any_mist, 1u);
-    if (has_shape)
+    if (!FOR_GPU && has_shape)
         atomicOr(any_shape, 1u);
     barrier();
     if (gl_LocalInvocationIndex != 0u)
         return;
     if (any_mist != 0u)
         draw_block(block);
-    if (any_shape != 0u)
+    if (!FOR_GPU && any_shape != 0u)
         work_list[2u * look.max_tiles + atomicAdd(work.block_groups[0], 1u)] = number;
 }
