@@ -387,16 +387,26 @@ static void record_rounds(virga_glass *glass, VkCommandBuffer cmd)
     }
 }
 
+/* The list of what a pass over `groups` marked. On a GPU the pass that writes it adds up, too: it writes sizes of
+ * dispatches, also for an empty list, so it is as long as the longest list. */
+static void record_list(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *scan,
+                        const virga_pipeline *compact, size_t groups)
+{
+    if (glass->base.context->for_software) {
+        virga_dispatch_and_barrier(glass->base.context, cmd, scan, 1);
+        over(glass, cmd, compact, groups);
+    } else
+        virga_dispatch_and_barrier(glass->base.context, cmd, compact, groups_of(glass->def.max_drops));
+}
+
 /* The mesh model: section 4.1. */
 static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.motion");
     over(glass, cmd, glass->live_mark, LIVE_LIST);
-    virga_dispatch_and_barrier(glass->base.context, cmd, glass->live_scan, 1);
-    over(glass, cmd, glass->live_compact, LIVE_LIST);
+    record_list(glass, cmd, glass->live_scan, glass->live_compact, LIVE_LIST);
     over(glass, cmd, glass->begin_tick, ALIVE);
-    virga_dispatch_and_barrier(glass->base.context, cmd, glass->active_scan, 1);
-    over(glass, cmd, glass->active_compact, ALIVE);
+    record_list(glass, cmd, glass->active_scan, glass->active_compact, ALIVE);
     record_rounds(glass, cmd);
     /* On a GPU several invocations share a slot, and those of all live slots are enough. */
     over(glass, cmd, glass->capture_mark, glass->base.context->for_software ? ACTIVE : ALIVE);
@@ -472,30 +482,43 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
 
 static void record_spawns(virga_glass *glass, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.spawn");
+    virga_context *context = glass->base.context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.spawn");
     glass_record_break(glass, cmd);
     glass_record_fog_grow(glass, cmd);
     over(glass, cmd, glass->spawn_claim, SEEDS);
-    virga_dispatch_and_barrier(glass->base.context, cmd, glass->spawn_scan, 1);
+    virga_dispatch_and_barrier(context, cmd, glass->spawn_scan, 1);
     over(glass, cmd, glass->spawn, SEEDS);
-    over(glass, cmd, glass->end_tick, offsetof(virga_glass_state_gpu, settle_groups));
+    /* What follows has nothing to do with each other. */
+    virga_dispatch_indirect(context, cmd, glass->end_tick, glass->state->buffer,
+                            offsetof(virga_glass_state_gpu, settle_groups));
     if (glass->blades.rolling_rows)
-        virga_dispatch_and_barrier(glass->base.context, cmd, glass->dry_film,
-                                   groups_of((uint64_t)glass->blades.rolling_rows * glass->columns));
-    virga_pass_end(glass->base.context, cmd, scope);
+        virga_dispatch(context, cmd, glass->dry_film, groups_of((uint64_t)glass->blades.rolling_rows * glass->columns));
+    virga_indirect_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
 }
 
+/* Workgroups of the pass that measures, over all blocks of cells, all slots, and the bins of the blades. */
+static uint32_t measure_groups(const virga_glass *glass)
+{
+    const uint32_t blocks = virga_groups_of(glass_film_blocks(&glass->def), VIRGA_GLASS_BLOCKS_PER_GROUP);
+    const uint32_t slots =
+        groups_of(glass->def.max_drops > VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS ? glass->def.max_drops
+                                                                               : VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS);
+    return blocks > slots ? blocks : slots;
+}
+
+/* Sums the water, whose counters the last tick has cleared. On a GPU workgroups that have nothing to sum take less time
+ * than a pass that finds out which have. */
 static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.measure");
-    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_COPIES);
-    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, drops), 12, 0);
-    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, measured), 24, 0);
-    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, film_blocks), 8, 0);
-    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
-    virga_dispatch_and_barrier(context, cmd, glass->film_compact, groups_of(glass_film_blocks(&glass->def)));
-    over(glass, cmd, glass->measure, offsetof(virga_glass_state_gpu, measure_groups));
+    if (context->for_software) {
+        virga_dispatch_and_barrier(context, cmd, glass->film_compact, groups_of(glass_film_blocks(&glass->def)));
+        over(glass, cmd, glass->measure, offsetof(virga_glass_state_gpu, measure_groups));
+    } else
+        virga_dispatch_and_barrier(context, cmd, glass->measure, measure_groups(glass));
     virga_pass_end(context, cmd, scope);
 }
 

@@ -41,17 +41,22 @@ virga_list_gpu list_head(uvec2 total, uint capacity)
 }
 
 #ifndef COMPACT_LISTS
-// The same for all selected slots of `groups` workgroups; also writes the head of the list.
+// By one invocation.
+void write_head(uvec2 total, uint groups, uint capacity)
+{
+    const virga_list_gpu head = list_head(total, capacity);
+    list.second_kind = head.second_kind;
+    list.count = head.count;
+    list.group_count = head.group_count;
+    list.word_count = groups * GROUP_WORDS;
+}
+
+// scan_words for all selected slots of `groups` workgroups; also writes the head of the list.
 uvec2 scan_selection(uint groups, uint capacity)
 {
     const uvec2 total = scan_words(0u, groups * GROUP_WORDS, capacity);
-    if (gl_LocalInvocationIndex == 0u) {
-        const virga_list_gpu head = list_head(total, capacity);
-        list.second_kind = head.second_kind;
-        list.count = head.count;
-        list.group_count = head.group_count;
-        list.word_count = groups * GROUP_WORDS;
-    }
+    if (gl_LocalInvocationIndex == 0u)
+        write_head(total, groups, capacity);
     return total;
 }
 #endif

@@ -1,5 +1,5 @@
 // film_compact.comp - list of the blocks of cells that may have film, in any order; and the size of the dispatch that
-// measures.
+// measures. For software Vulkan.
 // One invocation per block. Reads: block flags. Writes: the list of blocks, state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

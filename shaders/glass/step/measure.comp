@@ -7,10 +7,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #include "live.glsl"
+#include "gpu/variants.glsl"
 
 #define BLOCK VIRGA_GLASS_FILM_BLOCK // cells of a block: as many as a workgroup has invocations
 
 shared uint water[3], counts[3], has_film[VIRGA_GLASS_BLOCKS_PER_GROUP]; // 1: a cell of the block has film
+shared uint corners[VIRGA_GLASS_BLOCKS_PER_GROUP]; // each block's first cell: column and row, u16 each; NONE: no block
 
 void add(uint index, uint amount)
 {
@@ -19,26 +21,22 @@ void add(uint index, uint amount)
         atomicAdd(state.measured[index].high, 1u);
 }
 
-// The k-th block of this workgroup, or NONE. It is read without a branch, here and below: inside a branch software
-// Vulkan reads lane by lane.
-uint block_of(uint k)
+// The k-th block of this workgroup, or NONE. A GPU goes over all blocks, and has no list of those that may have film.
+uint block_of(uint k, uvec2 counts)
 {
-    const uvec2 counts = film_block_counts();
-    const uint index = gl_WorkGroupID.x * VIRGA_GLASS_BLOCKS_PER_GROUP + k, all = counts.x * counts.y;
-    const uint block = film_blocks[all + min(index, all - 1u)];
-    return index < state.film_blocks ? block : NONE;
+    const uint index = gl_WorkGroupID.x * VIRGA_GLASS_BLOCKS_PER_GROUP + k;
+    if (FOR_GPU)
+        return index < counts.x * counts.y && film_blocks[index] != 0u ? index : NONE;
+    return index < state.film_blocks ? film_blocks[counts.x * counts.y + index] : NONE;
 }
 
-// Film on this invocation's cell of a block.
-uint film_of_lane(uint block)
+// Film on a cell of the k-th block. It is read without a branch: inside a branch software Vulkan reads lane by lane.
+uint film_in_block(uint k, uvec2 in_block)
 {
-    const uvec2 counts = film_block_counts(), last = uvec2(tick.pane.columns, tick.pane.rows) - 1u;
-    const uint valid_block = block != NONE ? block : 0u;
-    const uvec2 corner = uvec2(valid_block % counts.x, valid_block / counts.x) * BLOCK;
-    const uvec2 cell = corner + uvec2(gl_LocalInvocationIndex % BLOCK, gl_LocalInvocationIndex / BLOCK);
-    const uvec2 clamped = min(cell, last);
+    const uvec2 last = uvec2(tick.pane.columns, tick.pane.rows) - 1u;
+    const uvec2 cell = uvec2(corners[k] & 0xffffu, corners[k] >> 16) + in_block, clamped = min(cell, last);
     const uint here = film[clamped.x + clamped.y * tick.pane.columns];
-    return cell == clamped && block != NONE ? here : 0u;
+    return cell == clamped ? here : 0u; // NONE lies beyond every pane
 }
 
 void add_drop(uint slot)
@@ -56,14 +54,20 @@ void add_drop(uint slot)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, i = gl_GlobalInvocationID.x;
+    const uvec2 blocks = film_block_counts(), in_block = uvec2(lane % BLOCK, lane / BLOCK);
     if (lane < 3u)
         water[lane] = counts[lane] = 0u;
-    if (lane < VIRGA_GLASS_BLOCKS_PER_GROUP)
+    const uint own_block = lane < VIRGA_GLASS_BLOCKS_PER_GROUP ? block_of(lane, blocks) : NONE;
+    if (lane < VIRGA_GLASS_BLOCKS_PER_GROUP) {
         has_film[lane] = 0u;
+        corners[lane] = own_block == NONE ? NONE : (own_block % blocks.x | own_block / blocks.x << 16) * BLOCK;
+    }
     barrier();
     uint sum = 0u;
     for (uint k = 0u; k < VIRGA_GLASS_BLOCKS_PER_GROUP; k++) {
-        const uint here = film_of_lane(block_of(k));
+        if (FOR_GPU && corners[k] == NONE)
+            continue;
+        const uint here = film_in_block(k, in_block);
         if (here != 0u)
             has_film[k] = 1u;
         sum += here;
@@ -75,11 +79,8 @@ void main()
     if (i < state.shown)
         add_drop(listed[i]);
     barrier();
-    if (lane < VIRGA_GLASS_BLOCKS_PER_GROUP) {
-        const uint block = block_of(lane);
-        if (has_film[lane] == 0u && block != NONE)
-            film_blocks[block] = 0u;
-    }
+    if (own_block != NONE && has_film[lane] == 0u)
+        film_blocks[own_block] = 0u;
     if (lane < 3u && water[lane] != 0u)
         add(lane, water[lane]);
     if (lane == 0u && counts[0] != 0u)

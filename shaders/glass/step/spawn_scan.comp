@@ -1,5 +1,5 @@
 // spawn_scan.comp - prefix sum over the slots that seeds need, in the order of seeds; and the number of slots that the
-// next tick has to scan.
+// next tick has to scan. Clears the sums of the water.
 // One workgroup, in which each invocation takes a run of seeds. Reads: seeds, claims, occupants. Writes: ranks, the
 // live list (new slots), state.
 #version 460
@@ -43,6 +43,15 @@ uint[3] groups_of(uint invocations)
     return uint[3]((invocations + VIRGA_GLASS_GROUP - 1u) / VIRGA_GLASS_GROUP, 1u, 1u);
 }
 
+// Clears what film_compact.comp and measure.comp add up at the end of a step.
+void begin_measuring()
+{
+    const virga_glass_count_gpu none = virga_glass_count_gpu(0u, 0u);
+    state.drops = state.particles = state.particles_waiting = 0u;
+    state.measured = virga_glass_count_gpu[3](none, none, none);
+    state.film_blocks = state.measure_groups[0] = 0u;
+}
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = seed_count();
@@ -69,5 +78,6 @@ void main()
         state.shown = state.alive + spawned; // the first free slots of the list are used
         state.shown_groups = groups_of(state.shown);
         state.live_list_groups = groups_of(scanned);
+        begin_measuring();
     }
 }
