@@ -142,6 +142,7 @@ enum {
     COUNT_FILM_BLOCKS,
     COUNT_SEEDS,
     COUNT_GRID,
+    COUNT_MOVED_WORDS,
     COUNT_TICKS,
     COUNT_BALLS,
     COUNT_TILES,
@@ -201,6 +202,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SEEDS] = GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops +
                           VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS + glass_max_sites(def) + glass_fog_sites(def);
     counts[COUNT_GRID] = grid_cells(def) + def->max_drops;
+    counts[COUNT_MOVED_WORDS] = 2 * 3 * (VkDeviceSize)def->max_drops + 1 + grid_cells(def);
     counts[COUNT_TICKS] = def->max_ticks_per_step;
     count_picture(def, counts);
 }
@@ -229,7 +231,7 @@ static const virga_effect_buffer buffers[] = {
     {"glass.seeds", AT(seeds), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_seed_gpu), COUNT_SEEDS, FILL},
     {"glass.ranks", AT(ranks), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_SEEDS},
     {"glass.grid", AT(grid), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_GRID, FILL},
-    {"glass.moved", AT(moved), VIRGA_USE_STORAGE, DEVICE, 0, 16, COUNT_SLOTS},
+    {"glass.moved", AT(moved), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_MOVED_WORDS, FILL},
     /* The surface of the pane. */
     {"glass.surface", AT(surface), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS},
     {"glass.nodes", AT(nodes), VIRGA_USE_TEXELS, DEVICE, NODE_BYTES},
@@ -326,6 +328,8 @@ static const virga_effect_pass passes[] = {
     STEP(split_drops),
     STEP(empty_bins),
     STEP(particle_grid),
+    STEP(particle_starts),
+    STEP(particle_sort),
     STEP(push_particles),
     STEP(to_drops_claim),
     STEP(to_drops),

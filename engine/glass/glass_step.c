@@ -471,6 +471,8 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(glass->base.context, cmd, scope);
     scope = virga_pass_begin(glass->base.context, cmd, "glass.particles");
     over(glass, cmd, glass->particle_grid, PARTICLES);
+    over(glass, cmd, glass->particle_starts, PARTICLES);
+    over(glass, cmd, glass->particle_sort, PARTICLES);
     for (uint32_t i = 0; i < RELAX_ROUNDS; i++) {
         push(glass, cmd, &i, 1);
         over(glass, cmd, glass->push_particles, PARTICLES);

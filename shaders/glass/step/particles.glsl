@@ -1,15 +1,22 @@
 // particles.glsl - particles (Goto et al. 2009, section 4.2): circles of one radius that push each other. Neighbours
-// are found through a grid whose cells hold linked lists. The order of a list is not defined, so the pushes of
-// neighbours are summed as integers.
+// are found through a grid: particles are sorted by its cells, so those of a cell are side by side, and invocations
+// beside each other have the same neighbours. The order of cells, and within a cell, is not defined, so the pushes of
+// neighbours are summed as integers. A linked list per cell took twice as long before a crowded blade.
 //
-// A particle's number here is its index among the active slots, which list all particles first. So the positions of
-// particles are close together in memory.
+//     particle_grid    counts the particles of each cell
+//     particle_starts  gives each cell that has any its place among the sorted particles
+//     particle_sort    writes them there
+//
+// A particle's number here is its index among the active slots, which list all particles first. Its place is its index
+// among the sorted particles.
 
-// Heads of the lists of all cells, then each particle's next: a particle + 1; 0: none.
+// Particles in each cell, then each particle's number within its cell.
 layout(scalar, set = 0, binding = 11) buffer Grid { uint grid[]; };
 layout(scalar, set = 0, binding = 10) buffer Ranks { uint ranks[]; };
-// Positions, in two arrays: a round reads one and writes the other.
-layout(scalar, set = 0, binding = 15) buffer Moved { vec2 moved[]; };
+// Sorted particles, in two arrays: a round reads one and writes the other. x, y: position, as bits; z: number
+layout(scalar, set = 0, binding = 15) buffer Moved { uvec3 moved[]; };
+// Behind them, in words: the number of particles that have a place, then the place of each cell's first.
+layout(scalar, set = 0, binding = 15) buffer Places { uint places[]; };
 
 #define UNIT_M 1e-8 // the unit in which displacements are summed
 
@@ -19,5 +26,7 @@ ivec2 grid_cell(vec2 point)
 }
 
 uint grid_head(ivec2 cell) { return uint(cell.x) + uint(cell.y) * tick.grid_columns; }
-uint grid_next(uint particle) { return tick.grid_columns * tick.grid_rows + particle; }
-uint moved_at(uint particle, uint round_number) { return particle + (round_number & 1u) * tick.pane.max_drops; }
+uint grid_rank(uint particle) { return tick.grid_columns * tick.grid_rows + particle; }
+uint moved_at(uint place, uint round_number) { return place + (round_number & 1u) * tick.pane.max_drops; }
+uint places_taken() { return 6u * tick.pane.max_drops; }
+uint place_of_cell(uint head) { return places_taken() + 1u + head; }

@@ -14,29 +14,36 @@
 
 layout(push_constant) uniform Round { uint round_number; };
 
-// Returns the displacement in UNIT_M, and in z the number of overlapping neighbours.
-ivec3 push_apart(uint particle, uint head, vec2 at)
+// Two particles at the same position move apart in a direction that both compute from their numbers. Without an angle:
+// software Vulkan computes it for every pair.
+vec2 chance_direction(uint particle, uint other)
+{
+    const uint hash = virga_hash1(min(particle, other) * 0x9e3779b1u + max(particle, other));
+    const float t = 2.0 * virga_unit(hash) - 1.0;
+    const bool turned = ((hash & 1u) != 0u) != (particle < other);
+    return vec2(1.0 - t * t, 2.0 * t) * ((turned ? 1.0 : -1.0) / (1.0 + t * t));
+}
+
+// Returns the displacement in UNIT_M, and in z the number of overlapping neighbours. `own`: as in `moved`.
+ivec3 push_apart(uint place, uvec3 own, uint head)
 {
     ivec3 sum = ivec3(0);
+    const vec2 at = uintBitsToFloat(own.xy);
     const ivec2 cell = ivec2(head % tick.grid_columns, head / tick.grid_columns);
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
             const ivec2 near = cell + ivec2(x, y);
             if (any(lessThan(near, ivec2(0))) || near.x >= int(tick.grid_columns) || near.y >= int(tick.grid_rows))
                 continue;
-            for (uint other = grid[grid_head(near)]; other != 0u; other = grid[grid_next(other - 1u)]) {
-                if (other == particle + 1u)
-                    continue;
-                const vec2 offset = at - moved[moved_at(other - 1u, round_number)];
+            const uint near_head = grid_head(near), first = places[place_of_cell(near_head)];
+            const uint end = first + grid[near_head]; // the place of an empty cell is one of an earlier tick
+            for (uint i = first; i < end; i++) {
+                const uvec3 other = moved[moved_at(i, round_number)];
+                const vec2 offset = at - uintBitsToFloat(other.xy);
                 const float distance = length(offset), overlap = 2.0 * tick.particle_m - distance;
-                if (overlap <= 0.0)
+                if (overlap <= 0.0 || i == place)
                     continue;
-                // Two particles at the same position move apart in a direction that both compute from their numbers.
-                const float angle =
-                    6.2831853 * virga_unit(virga_hash2(min(particle, other - 1u), max(particle, other - 1u)));
-                const vec2 direction = distance > 1e-7
-                                           ? offset / distance
-                                           : vec2(cos(angle), sin(angle)) * (particle < other - 1u ? 1.0 : -1.0);
+                const vec2 direction = distance > 1e-7 ? offset / distance : chance_direction(own.z, other.z);
                 sum += ivec3(ivec2(round(direction * (0.5 * (1.0 + tick.penalty) * overlap / UNIT_M))), 1);
             }
         }
@@ -45,17 +52,17 @@ ivec3 push_apart(uint particle, uint head, vec2 at)
 
 void main()
 {
-    const uint particle = gl_GlobalInvocationID.x;
-    if (particle >= state.active_particles)
+    const uint place = gl_GlobalInvocationID.x;
+    if (place >= state.active_particles)
         return;
-    const uint slot = slot_of_active(particle);
-    const vec2 at = moved[moved_at(particle, round_number)];
-    const ivec3 push = push_apart(particle, drops[slot].cell, at);
+    const uvec3 own = moved[moved_at(place, round_number)];
+    const uint slot = slot_of_active(own.z);
+    const ivec3 push = push_apart(place, own, drops[slot].cell);
     // In a crowd every particle is pushed from many sides: it moves by the mean push, or rounds would overshoot.
-    vec2 to = at + vec2(push.xy) * (UNIT_M * (push.z > 2 ? 2.0 / float(push.z) : 1.0));
+    vec2 to = uintBitsToFloat(own.xy) + vec2(push.xy) * (UNIT_M * (push.z > 2 ? 2.0 / float(push.z) : 1.0));
     bool pushed = false;
     to = push_by_blades(to, to_vec2(drops[slot].previous_position), pushed);
     if (pushed)
         drops[slot].kind |= VIRGA_GLASS_PUSHED;
-    moved[moved_at(particle, round_number + 1u)] = to;
+    moved[moved_at(place, round_number + 1u)] = uvec3(floatBitsToUint(to), own.z);
 }

@@ -29,12 +29,15 @@ bool near_large_drop(ivec2 cell)
 
 void main()
 {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= state.active_particles)
+    const uint place = gl_GlobalInvocationID.x;
+    if (place >= state.active_particles)
         return;
-    const uint slot = slot_of_active(i);
-    const vec2 at = moved[moved_at(i, 0u)]; // the array that the last of an even number of rounds wrote
-    grid[drops[slot].cell] = 0u; // every particle of the list clears its head: a tick begins with an empty grid
+    const uvec3 own = moved[moved_at(place, 0u)]; // the array that the last of an even number of rounds wrote
+    const uint slot = slot_of_active(own.z);
+    const vec2 at = uintBitsToFloat(own.xy);
+    grid[drops[slot].cell] = 0u; // every particle clears its cell: a tick begins with an empty grid
+    if (place == 0u)
+        places[places_taken()] = 0u;
     drops[slot].position = to_array(at);
     const ivec2 cell = cell_at(at);
     const bool in_a_band = is_in_band(at);
