@@ -15,6 +15,9 @@
 #include "plate_fixture.h"
 
 #include "counted_comp.spv.h"
+#include "divided_10_comp.spv.h"
+#include "divided_8_comp.spv.h"
+#include "divided_any_comp.spv.h"
 #include "fused_0_comp.spv.h"
 #include "fused_1_comp.spv.h"
 #include "fused_2_comp.spv.h"
@@ -219,13 +222,16 @@ static void a_modelled_time_is_that_of_pen_and_paper(void **state)
     close_pass(f, &p);
 }
 
-static float operations(const uint32_t *code, size_t bytes)
+static float operations(const uint32_t *code, size_t bytes, float *slow)
 {
     block_costs costs;
     float sum = 0;
+    *slow = 0;
     assert_true(block_costs_read(code, bytes / 4, &costs));
-    for (uint32_t i = 0; i < costs.block_count; i++)
+    for (uint32_t i = 0; i < costs.block_count; i++) {
         sum += costs.blocks[i].full;
+        *slow += costs.blocks[i].slow;
+    }
     block_costs_free(&costs);
     return sum;
 }
@@ -233,9 +239,25 @@ static float operations(const uint32_t *code, size_t bytes)
 static void a_product_and_a_sum_are_one_operation_unless_they_are_precise(void **state)
 {
     (void)state;
-    const float fused = operations(fused_0_comp_spv, sizeof fused_0_comp_spv);
-    assert_float_equal(operations(fused_1_comp_spv, sizeof fused_1_comp_spv), fused + 4, 0);
-    assert_float_equal(operations(fused_2_comp_spv, sizeof fused_2_comp_spv), fused + 4, 0);
+    float slow;
+    const float fused = operations(fused_0_comp_spv, sizeof fused_0_comp_spv, &slow);
+    assert_float_equal(operations(fused_1_comp_spv, sizeof fused_1_comp_spv, &slow), fused + 4, 0);
+    assert_float_equal(operations(fused_2_comp_spv, sizeof fused_2_comp_spv, &slow), fused + 4, 0);
+}
+
+/* Four quotients: over 8 they are shifts, over 10 each is a product's high word and a shift. */
+static void a_quotient_by_a_constant_is_no_division(void **state)
+{
+    (void)state;
+    float by_8, by_10, by_any;
+    const float shifts = operations(divided_8_comp_spv, sizeof divided_8_comp_spv, &by_8);
+    const float products = operations(divided_10_comp_spv, sizeof divided_10_comp_spv, &by_10);
+    const float divisions = operations(divided_any_comp_spv, sizeof divided_any_comp_spv, &by_any);
+    assert_float_equal(by_8, 0, 0);
+    assert_float_equal(by_10, 4, 0);
+    assert_float_equal(by_any, 20, 0);
+    assert_float_equal(products, shifts, 0);
+    assert_true(divisions >= shifts + 44); /* and the place of what it is divided by */
 }
 
 static void a_card_is_found_by_its_name(void **state)
@@ -272,6 +294,7 @@ int main(void)
         cmocka_unit_test(results_are_the_same_with_and_without),
         cmocka_unit_test(a_modelled_time_is_that_of_pen_and_paper),
         cmocka_unit_test(a_product_and_a_sum_are_one_operation_unless_they_are_precise),
+        cmocka_unit_test(a_quotient_by_a_constant_is_no_division),
         cmocka_unit_test(a_card_is_found_by_its_name),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -8,17 +8,18 @@
 
 /* What is known of an id. */
 typedef struct id_facts {
-    uint32_t opcode;              /* of a type or variable */
-    uint32_t of;                  /* type: of components, elements, or what it points to; value: its type */
-    uint32_t count;               /* type: components, columns, elements; integers: bytes */
-    uint32_t bytes;               /* type: size */
-    uint32_t value;               /* constant: its first word */
-    uint32_t storage;             /* pointers and variables: storage class */
-    uint32_t set, binding;        /* variables */
-    uint32_t built_in;            /* variables: 1 + the number */
-    uint32_t resource;            /* pointers and images: 1 + index */
-    uint32_t block;               /* labels: 1 + index */
-    bool own;                     /* differs between the lanes of a wave */
+    uint32_t opcode;       /* of a type or variable */
+    uint32_t of;           /* type: of components, elements, or what it points to; value: its type */
+    uint32_t count;        /* type: components, columns, elements; integers: bytes */
+    uint32_t bytes;        /* type: size */
+    uint32_t value;        /* constant: its first word */
+    uint32_t storage;      /* pointers and variables: storage class */
+    uint32_t set, binding; /* variables */
+    uint32_t built_in;     /* variables: 1 + the number */
+    uint32_t resource;     /* pointers and images: 1 + index */
+    uint32_t block;        /* labels: 1 + index */
+    bool own;              /* differs between the lanes of a wave */
+    bool constant;
     bool exact;                   /* a product or sum that may not be fused with another */
     const block_cost *product_of; /* a product that can be fused: the block that it is in */
 } id_facts;
@@ -174,12 +175,45 @@ static bool is_fused(reader *r, const uint32_t *at)
     return false;
 }
 
+static bool is_power_of_two(uint32_t value)
+{
+    return value && !(value & (value - 1));
+}
+
+/* Integers over integers. By a constant it is a shift or a mask, or else a multiplication that gives the high word, and
+ * a shift; a remainder then is what the product of that and the constant leaves. Numbers with signs are rounded to 0,
+ * which takes two more. */
+static void cost_of_division(reader *r, const uint32_t *at, uint32_t op, float n)
+{
+    block_cost *b = r->block;
+    const id_facts *by = &r->ids[at[4]];
+    const bool divides = op == OP_U_DIV || op == OP_S_DIV, has_sign = op != OP_U_DIV && op != OP_U_MOD;
+    if (!by->constant) {
+        b->full += 12 * n;
+        b->slow += 5 * n;
+        return;
+    }
+    const bool shifts = is_power_of_two(by->value);
+    b->full += (1 + (has_sign ? 2 : 0) + (divides || shifts ? 0 : 1)) * n;
+    b->slow += shifts ? 0 : divides ? n : 2 * n;
+}
+
+static void cost_of_product(reader *r, const uint32_t *at, float n)
+{
+    for (int i = 3; i < 5; i++)
+        if (r->ids[at[i]].constant && is_power_of_two(r->ids[at[i]].value)) { /* a shift */
+            r->block->full += n;
+            return;
+        }
+    r->block->slow += n;
+}
+
 static void cost_of_arithmetic(reader *r, const uint32_t *at, uint32_t op, float n)
 {
     block_cost *b = r->block;
     const float taken = components(r, r->ids[at[3]].of);
     switch (op) {
-    case OP_I_MUL: b->slow += n; break;
+    case OP_I_MUL: cost_of_product(r, at, n); break;
     case OP_F_MUL:
     case OP_VECTOR_TIMES_SCALAR:
         b->full += n;
@@ -187,9 +221,9 @@ static void cost_of_arithmetic(reader *r, const uint32_t *at, uint32_t op, float
         break;
     case OP_F_ADD:
     case OP_F_SUB: b->full += is_fused(r, at) ? 0 : n; break;
-    case OP_F_DIV:
+    case OP_F_DIV: /* times the reciprocal, which is known of a constant */
         b->full += n;
-        b->slow += n;
+        b->slow += r->ids[at[4]].constant ? 0 : n;
         break;
     case OP_F_REM:
     case OP_F_MOD:
@@ -200,10 +234,7 @@ static void cost_of_arithmetic(reader *r, const uint32_t *at, uint32_t op, float
     case OP_S_DIV:
     case OP_U_MOD:
     case OP_S_REM:
-    case OP_S_MOD:
-        b->full += 12 * n;
-        b->slow += 5 * n;
-        break;
+    case OP_S_MOD: cost_of_division(r, at, op, n); break;
     case OP_VECTOR_TIMES_MATRIX:
     case OP_MATRIX_TIMES_VECTOR: b->full += n * (taken > n ? taken / n : taken); break;
     case OP_MATRIX_TIMES_MATRIX: b->full += 4 * n; break;
@@ -418,8 +449,12 @@ static void read_global(reader *r, const uint32_t *at, uint32_t length)
     else if (op == OP_VARIABLE)
         read_variable(r, at);
     else if (op >= 41 && op <= OP_SPEC_CONSTANT_OP) { /* constants: a type, a result, and a value */
-        r->ids[at[2]].of = at[1];
-        r->ids[at[2]].value = length > 3 ? at[3] : 0;
+        id_facts *constant = &r->ids[at[2]];
+        constant->of = at[1];
+        constant->value = length > 3 ? at[3] : 0;
+        constant->constant = op != OP_SPEC_CONSTANT_OP;
+        if (op == OP_CONSTANT_COMPOSITE) /* its components are nearly always alike */
+            constant->value = r->ids[at[3]].value;
     }
 }
 

@@ -25,6 +25,7 @@ typedef enum spirv_op {
     OP_TYPE_POINTER = 32,
     OP_CONSTANT_TRUE = 41,
     OP_CONSTANT = 43,
+    OP_CONSTANT_COMPOSITE = 44,
     OP_SPEC_CONSTANT_OP = 52,
     OP_FUNCTION = 54,
     OP_VARIABLE = 59,
