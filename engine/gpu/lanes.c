@@ -382,6 +382,23 @@ static void replay(const lane *l, VkCommandBuffer cmd, const kept_command *comma
         command->replay(&l->lanes->vk, cmd, arguments_of(command));
 }
 
+/* Those that a newer one of their layout hides are forgotten. The newest is replayed last: layouts may share their room,
+ * and what one has pushed would hide what another has pushed later. */
+static void note_pushed(lane *l, const kept_command *command)
+{
+    const kept_CmdPushConstants *k = arguments_of(command);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < l->pushed_count; i++) {
+        const kept_CmdPushConstants *other = arguments_of(l->pushed[i]);
+        if (other->layout != k->layout || other->offset != k->offset || other->size > k->size)
+            l->pushed[count++] = l->pushed[i];
+    }
+    if (count == MAX_PUSHED) /* the oldest is forgotten */
+        memmove(l->pushed, l->pushed + 1, --count * sizeof *l->pushed);
+    l->pushed[count] = command;
+    l->pushed_count = count + 1;
+}
+
 /* Notes what a command leaves bound. */
 static void note(lane *l, const kept_command *command)
 {
@@ -389,16 +406,7 @@ static void note(lane *l, const kept_command *command)
         const kept_sets *k = arguments_of(command);
         l->sets[k->point == VK_PIPELINE_BIND_POINT_GRAPHICS] = command;
     } else if (command->replay == replay_CmdPushConstants) {
-        const kept_CmdPushConstants *k = arguments_of(command);
-        uint32_t i = 0;
-        for (; i < l->pushed_count; i++) {
-            const kept_CmdPushConstants *other = arguments_of(l->pushed[i]);
-            if (other->layout == k->layout && other->offset == k->offset)
-                break;
-        }
-        i = i < MAX_PUSHED ? i : MAX_PUSHED - 1;
-        l->pushed[i] = command;
-        l->pushed_count = i < l->pushed_count ? l->pushed_count : i + 1;
+        note_pushed(l, command);
     } else if (command->replay == replay_label && l->label_count < MAX_LABELS) {
         l->labels[l->label_count++] = command;
     } else if (command->replay == replay_CmdEndDebugUtilsLabelEXT && l->label_count) {

@@ -194,9 +194,16 @@ static void bind(virga_context *context, VkCommandBuffer cmd, int set, uint32_t 
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, VK_NULL_HANDLE, 0, 1, sets, 1, &offset);
 }
 
+static void push_by(virga_context *context, VkCommandBuffer cmd, uint64_t layout, uint32_t offset, uint32_t value)
+{
+    VkPipelineLayout handle;
+    memcpy(&handle, &layout, sizeof handle);
+    context->vk.CmdPushConstants(cmd, handle, VK_SHADER_STAGE_COMPUTE_BIT, offset, 4, &value);
+}
+
 static void push(virga_context *context, VkCommandBuffer cmd, uint32_t offset, uint32_t value)
 {
-    context->vk.CmdPushConstants(cmd, VK_NULL_HANDLE, VK_SHADER_STAGE_COMPUTE_BIT, offset, 4, &value);
+    push_by(context, cmd, 0, offset, value);
 }
 
 static void what_a_lane_has_bound_is_bound_again(void **state)
@@ -212,7 +219,25 @@ static void what_a_lane_has_bound_is_bound_again(void **state)
     lane = virga_lane(context, CMD, 1);
     bind(context, lane, 2, 0);
     record(context, lane, "A|B");
-    finish(context, "<1+64>(0:5)(4:6)(0:7)a<2+0>A|<1+64>(0:7)(4:6)b<2+0>B|<1+64>(0:7)(4:6)c");
+    finish(context, "<1+64>(0:5)(4:6)(0:7)a<2+0>A|<1+64>(4:6)(0:7)b<2+0>B|<1+64>(4:6)(0:7)c");
+}
+
+/* As layouts share the room of their constants. */
+static void what_was_pushed_last_is_pushed_last_again(void **state)
+{
+    (void)state;
+    virga_context *context = context_of();
+    VkCommandBuffer lane = virga_lane(context, CMD, 0);
+    push_by(context, lane, 1, 0, 5);
+    record(context, lane, "a|");
+    push_by(context, lane, 2, 0, 6);
+    record(context, lane, "b|");
+    push_by(context, lane, 1, 0, 7);
+    record(context, lane, "c|d");
+    lane = virga_lane(context, CMD, 1);
+    bind(context, lane, 2, 0);
+    record(context, lane, "A|B|C|D");
+    finish(context, "(0:5)a<2+0>A|(0:5)(0:6)b<2+0>B|(0:5)(0:6)(0:7)c<2+0>C|(0:6)(0:7)d<2+0>D");
 }
 
 static void a_lane_alone_binds_once(void **state)
@@ -306,6 +331,7 @@ int main(void)
         cmocka_unit_test(image_barriers_of_all_lanes_are_in_it),
         cmocka_unit_test(more_image_barriers_than_fit_are_more_barriers),
         cmocka_unit_test(what_a_lane_has_bound_is_bound_again),
+        cmocka_unit_test(what_was_pushed_last_is_pushed_last_again),
         cmocka_unit_test(a_lane_alone_binds_once),
         cmocka_unit_test(labels_are_around_the_commands_of_their_lane),
         cmocka_unit_test(there_are_none_for_software_or_with_timings),
