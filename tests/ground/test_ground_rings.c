@@ -1,14 +1,11 @@
 /* Rings on puddles: each drop starts one at its instant, and the map shows the waves of the table. */
-#include "ground_fixture.h"
+#include "ripple_fixture.h"
 
 #include "ground/ring_table.h"
 
 #include <virga/shared/random.h>
 
 #include <math.h>
-
-static ground_fixture f;
-static host_buffer picture, records;
 
 /* A level floor under `mm` of water everywhere. */
 static void begin(double mm)
@@ -23,52 +20,15 @@ static void begin(double mm)
     ground_fixture_floor(&f, VIRGA_MATERIAL_CUSTOM);
     ground_fixture_ground(&f, &def);
     ground_fixture_step(&f, 0);
-    virga_cell_gpu *cells = f.upload.mapped;
-    for (uint32_t i = 0; i < 128 * 128; i++)
-        cells[i] = (virga_cell_gpu){(uint32_t)(mm * 2.5e6), 0};
-    ground_fixture_put(&f);
-    REQUIRE(host_buffer_create(&f.gpu.device, 256 * 256 * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
-                               "ripples", &picture, f.gpu.error, sizeof f.gpu.error));
-    REQUIRE(host_buffer_create(&f.gpu.device, f.ground->rings->size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               HOST_BUFFER_READBACK, "rings", &records, f.gpu.error, sizeof f.gpu.error));
-}
-
-static void end(void)
-{
-    host_buffer_destroy(&f.gpu.device, &picture);
-    host_buffer_destroy(&f.gpu.device, &records);
-    ground_fixture_close(&f);
-}
-
-static void read_back(void)
-{
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f.gpu.device, &cmd, f.gpu.error, sizeof f.gpu.error));
-    REQUIRE(virga_frame_begin(f.context, f.gpu.device.frame, f.gpu.device.completed) == VIRGA_OK);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {256, 256, 1}};
-    const VkImage map = f.ground->ripples.map->colors[0]->image;
-    vkCmdCopyImageToBuffer(cmd, map, VK_IMAGE_LAYOUT_GENERAL, picture.buffer, 1, &copy);
-    ground_fixture_copy(cmd, f.ground->rings->buffer, 0, records.buffer, 0, f.ground->rings->size);
-    ground_fixture_submit(&f);
-    host_buffer_invalidate(&f.gpu.device, &picture);
-    host_buffer_invalidate(&f.gpu.device, &records);
-}
-
-static float half_to_float(uint16_t half)
-{
-    const int exponent = half >> 10 & 31, mantissa = half & 1023;
-    const double value = exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24);
-    return (float)(half & 0x8000 ? -value : value);
+    ripple_fixture_flood(mm);
 }
 
 /* Slope away from a point, at a texel. */
 static double radial(int x, int y, double from_x, double from_z)
 {
-    const uint16_t *texel = (const uint16_t *)picture.mapped + (y * 256 + x) * 2;
     const double dx = (x + 0.5 - 128) * 0.004 - from_x, dz = (y + 0.5 - 128) * 0.004 - from_z;
     const double r = hypot(dx, dz);
-    return (half_to_float(texel[0]) * dx + half_to_float(texel[1]) * dz) / r;
+    return (slope(x, y, 0) * dx + slope(x, y, 1) * dz) / r;
 }
 
 /* The crater that a drop leaves in deep enough water, as shaders/ground/rings.glsl derives it. */

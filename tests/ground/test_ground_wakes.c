@@ -1,5 +1,5 @@
 /* Wakes: wheels and feet that move water make waves on it, by the volume that they move. */
-#include "ground_fixture.h"
+#include "ripple_fixture.h"
 
 #include "ground/ring_table.h"
 
@@ -14,9 +14,6 @@ enum { SIDE = 128, CELLS = SIDE * SIDE, TEXELS = 256 };
 #define TICK_S  (1.0 / 60)
 #define NL_UM   2500.0
 #define WIDTH_M 0.07 /* of a wake's craters */
-
-static ground_fixture f;
-static host_buffer picture, records;
 
 /* ---- level ground with water that does not flow in the first second, and what waves it has */
 
@@ -36,36 +33,7 @@ static void begin(double mm)
     f.settings.stream_waves = 0;
     REQUIRE(virga_ground_set(f.ground, &f.settings) == VIRGA_OK);
     ground_fixture_step(&f, 0);
-    virga_cell_gpu *cells = f.upload.mapped;
-    for (uint32_t i = 0; i < CELLS; i++)
-        cells[i] = (virga_cell_gpu){(uint32_t)(mm * 1000 * NL_UM), 0};
-    ground_fixture_put(&f);
-    REQUIRE(host_buffer_create(&f.gpu.device, TEXELS * TEXELS * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               HOST_BUFFER_READBACK, "ripples", &picture, f.gpu.error, sizeof f.gpu.error));
-    REQUIRE(host_buffer_create(&f.gpu.device, f.ground->rings->size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               HOST_BUFFER_READBACK, "rings", &records, f.gpu.error, sizeof f.gpu.error));
-}
-
-static void end(void)
-{
-    host_buffer_destroy(&f.gpu.device, &picture);
-    host_buffer_destroy(&f.gpu.device, &records);
-    ground_fixture_close(&f);
-}
-
-static void read_back(void)
-{
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f.gpu.device, &cmd, f.gpu.error, sizeof f.gpu.error));
-    REQUIRE(virga_frame_begin(f.context, f.gpu.device.frame, f.gpu.device.completed) == VIRGA_OK);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {TEXELS, TEXELS, 1}};
-    const VkImage map = f.ground->ripples.map->colors[0]->image;
-    vkCmdCopyImageToBuffer(cmd, map, VK_IMAGE_LAYOUT_GENERAL, picture.buffer, 1, &copy);
-    ground_fixture_copy(cmd, f.ground->rings->buffer, 0, records.buffer, 0, f.ground->rings->size);
-    ground_fixture_submit(&f);
-    host_buffer_invalidate(&f.gpu.device, &picture);
-    host_buffer_invalidate(&f.gpu.device, &records);
+    ripple_fixture_flood(mm);
 }
 
 static uint32_t wake_count(void)
@@ -76,18 +44,6 @@ static uint32_t wake_count(void)
 static const virga_ring_gpu *wakes(void)
 {
     return (const virga_ring_gpu *)((const virga_rings_gpu *)records.mapped + 1) + VIRGA_MAX_RINGS;
-}
-
-static double half_to_double(uint16_t half)
-{
-    const int exponent = half >> 10 & 31, mantissa = half & 1023;
-    const double value = exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24);
-    return half & 0x8000 ? -value : value;
-}
-
-static double slope(int x, int z, int axis)
-{
-    return half_to_double(((const uint16_t *)picture.mapped)[(z * TEXELS + x) * 2 + axis]);
 }
 
 static double middle_of(int texel)
