@@ -382,8 +382,8 @@ static void replay(const lane *l, VkCommandBuffer cmd, const kept_command *comma
         command->replay(&l->lanes->vk, cmd, arguments_of(command));
 }
 
-/* Those that a newer one of their layout hides are forgotten. The newest is replayed last: layouts may share their room,
- * and what one has pushed would hide what another has pushed later. */
+/* Those that a newer one of their layout hides are forgotten. The newest is replayed last: layouts may share their
+ * room, and what one has pushed would hide what another has pushed later. */
 static void note_pushed(lane *l, const kept_command *command)
 {
     const kept_CmdPushConstants *k = arguments_of(command);
