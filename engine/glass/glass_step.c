@@ -504,9 +504,8 @@ static void record_spawns(virga_glass *glass, VkCommandBuffer cmd)
 static uint32_t measure_groups(const virga_glass *glass)
 {
     const uint32_t blocks = virga_groups_of(glass_film_blocks(&glass->def), VIRGA_GLASS_BLOCKS_PER_GROUP);
-    const uint32_t slots =
-        groups_of(glass->def.max_drops > VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS ? glass->def.max_drops
-                                                                               : VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS);
+    const uint32_t drops = glass->def.max_drops, bins = VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
+    const uint32_t slots = groups_of(drops > bins ? drops : bins);
     return blocks > slots ? blocks : slots;
 }
 

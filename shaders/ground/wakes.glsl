@@ -12,6 +12,7 @@
 // stretch as long as a crater is wide is at most w a h, and there the crater is half as deep as the water, as those of
 // drops are at most: d = V / (2 w a). The smaller of the two holds:
 //     d = V / max(pi a^2 / e, 2 w a)
+// That is the mean of a way: cells do not end where places do, so that single craters are up to 0.7 h deep.
 // Both are linear in V, so it does not matter into how many craters a way is cut.
 //
 // Energy: a crater has (pi / 8 rho g a^2 + 3 pi / 4 sigma) d^2 (see rings.glsl), 0.1 mJ for d = 2.5 mm. The step that
