@@ -293,19 +293,42 @@ void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
         imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
 }
 
-// A near field that is all, or a share of that. What is before the texel itself (`front`) hides as much of it as it
-// covers, as if the texel were in focus.
-void make_all(inout field_sum near, inout field_sum front, float share)
+// The coarse and the finer field each have a part of what is near at a texel. How much of it is in this one, by the
+// mean of its circles (texels). The coarse one does without: only the finer one knows what is behind that is not wide.
+float part_of(float mean_circle)
 {
-    const float rest = near.scene.a - front.scene.a, open = 1.0 - front.scene.a;
-    if (near.scene.a <= 0.0)
+    return FINER ? 1.0 - coarseness(mean_circle * float(STEP)) : COARSE ? 0.0 : 1.0;
+}
+
+// A near field that is all it can be, or a share of that. What is before the texel itself (`front`) hides as much of it
+// as it covers, as if the texel were in focus.
+void make_all(inout field_sum near, inout field_sum front, float part, float share)
+{
+    const float most = min(max(near.scene.a, part), 1.0);
+    const float rest = near.scene.a - front.scene.a, open = most - front.scene.a;
+    if (near.scene.a <= 0.0 || share <= 0.0)
         return;
     const bool hides = rest <= 1e-4 || open <= 0.0;
-    const float scale = mix(1.0, hides ? 1.0 / near.scene.a : open / rest, share), of_front = hides ? scale : 1.0;
+    const float scale = mix(1.0, hides ? most / near.scene.a : open / rest, share), of_front = hides ? scale : 1.0;
     near.scene = scale * (near.scene - front.scene) + of_front * front.scene;
     near.on = scale * (near.on - front.on) + of_front * front.on;
     front.scene *= of_front;
     front.on *= of_front;
+}
+
+// What is behind the near field. Where nothing was found that is its own color: it hides it, but draws read between
+// texels.
+//
+// Of two near fields one is a part p of all that is near, N. One field alone is made n' = N + (1 - f) (1 - N), where f
+// is how far what was found is behind, and f (1 - N) of the far field is seen. Of two, this one is made p n', the other
+// one stays (1 - p) N, and (f + (1 - p) (1 - f)) (1 - N) is open. So f of that is the far field, and the rest has the
+// color of what is near.
+vec4 behind_near(vec4 far, vec4 near, vec3 own, float part, float found)
+{
+    const vec4 own_near = near.a > 0.0 ? near / near.a : vec4(own, 1.0);
+    if (far.a <= 0.0)
+        return own_near;
+    return part < 1.0 && found < 1.0 ? mix(own_near, far / far.a, found / (found + (1.0 - part) * (1.0 - found))) : far;
 }
 
 // (half resolution) How much of a texel that is a little in front of the focus is in the far field, with what is behind
@@ -357,21 +380,15 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
         fine = gather_far(to, trusted);
     field_sum far = scene_behind(to, own.rgb, fine, trusted);
     // How far what was found is behind it. As the focus moves, what is there becomes so bit by bit.
-    const float trust = NEAR && to.behind && far.scene.a > 0.0 ? trusted / far.scene.a : 1.0;
+    const float found = far.scene.a <= 0.0 ? 0.0 : NEAR && to.behind ? trusted / far.scene.a : 1.0;
 #ifdef FINER_PASS
     const vec4 filled = far.scene;
 #endif
-    // Of two fields, each has a part of what is near: nothing behind one of them does not make it all.
-    if ((COARSE || FINER) && far.scene.a == 0.0)
-        far.scene = near.scene.a > 0.0 ? near.scene : vec4(own.rgb, 1.0);
-    else if ((COARSE || FINER) && trust < 1.0 && near.scene.a > 0.0)
-        far.scene = mix(near.scene / near.scene.a, far.scene / far.scene.a, trust);
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
-    if (near.scene.a > 1.0 || far.scene.a == 0.0)
-        make_all(near, front, 1.0);
-    else if (!COARSE && !FINER && trust < 1.0)
-        make_all(near, front, 1.0 - trust);
-    const float per_weight = far.scene.a > 0.0 ? 1.0 / far.scene.a : 0.0;
+    const float part = part_of(near.scene.a > 0.0 ? circles.x / near.scene.a : 0.0);
+    far.scene = behind_near(far.scene, near.scene, own.rgb, part, found);
+    make_all(near, front, part, near.scene.a > 1.0 ? 1.0 : 1.0 - found);
+    const float per_weight = 1.0 / far.scene.a;
     const vec4 on = near.on + (1.0 - near.scene.a) * far.on * per_weight;
     vec3 behind = far.scene.rgb * per_weight;
     if (moved > 0.0) {
