@@ -15,7 +15,8 @@ root, build = sys.argv[1:3]
 report = pages.Report()
 virga, drive = f"{build}/tools/virga/virga", f"{build}/tools/drive/drive"
 SCRIPTS = {"tools/demo", "tools/test", "tools/setup", "tools/check", "tools/swiftshader", "assets/make_pictures",
-           "assets/make_comparison", "assets/measure_streaks.py"}
+           "assets/make_comparison", "assets/measure_streaks.py",
+           "assets/measure_drops.py"}
 helps = {}
 
 
