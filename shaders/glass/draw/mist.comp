@@ -25,7 +25,7 @@ shared uint any_mist, any_shape;
 
 // Mist of a cell, and whether it has film with a shape. Without branches: inside one, software Vulkan reads lane by
 // lane.
-float cell_mist(uvec2 cell, inout bool has_shape)
+float cell_mist(uvec2 cell, out bool has_shape)
 {
     const bool inside = cell.x < look.pane.columns && cell.y < look.pane.rows;
     const uint number = inside ? cell.x + cell.y * look.pane.columns : 0u;
@@ -36,21 +36,38 @@ float cell_mist(uvec2 cell, inout bool has_shape)
     const float fresh = film_fresh(wetted_tick);
     const vec2 radii = bead_radii(number, float(water) * (1.0 - fresh)), shapes = bead_shapes(radii);
     const float covered = dot(radii * radii, 1.0 - shapes) * 3.14159265 / (look.pane.cell_m * look.pane.cell_m);
-    const bool shaped = has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
-    if (FOR_GPU && shaped)
-        mark_film_tiles(cell);
-    has_shape = has_shape || shaped;
+    has_shape = has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
     return has_water ? min(covered, 1.0) : 0.0;
 }
 
-float texel_mist(uvec2 texel, inout bool has_shape)
+// One cell per texel. The tiles are marked after all cells were read, by one loop, and not by one for each cell.
+uint mist_of_cells(uvec2 first, out bool has_shape)
 {
-    if (!SEVERAL)
-        return cell_mist(texel, has_shape);
-    float sum = 0.0;
-    for (uint i = 0u; i < look.mist_cells * look.mist_cells; i++)
-        sum += cell_mist(texel * look.mist_cells + uvec2(i % look.mist_cells, i / look.mist_cells), has_shape);
-    return sum / float(look.mist_cells * look.mist_cells);
+    bvec4 shaped;
+    const float mist0 = cell_mist(first, shaped.x), mist1 = cell_mist(first + uvec2(1u, 0u), shaped.y);
+    const float mist2 = cell_mist(first + uvec2(2u, 0u), shaped.z), mist3 = cell_mist(first + uvec2(3u, 0u), shaped.w);
+    has_shape = any(shaped);
+    const uvec4 bits = uvec4(shaped) << uvec4(0u, 1u, 2u, 3u);
+    if (FOR_GPU)
+        mark_film_tiles_of(first, bits.x | bits.y | bits.z | bits.w);
+    return packUnorm4x8(vec4(mist0, mist1, mist2, mist3));
+}
+
+uint mist_of_texels(uvec2 first, out bool has_shape)
+{
+    const uint side = look.mist_cells;
+    vec4 mist = vec4(0.0);
+    has_shape = false;
+    for (uint i = 0u; i < PACKED * side * side; i++) {
+        const uint texel = i / (side * side), rest = i % (side * side);
+        const uvec2 cell = (first + uvec2(texel, 0u)) * side + uvec2(rest % side, rest / side);
+        bool shaped;
+        mist[texel] += cell_mist(cell, shaped);
+        if (FOR_GPU && shaped)
+            mark_film_tiles(cell);
+        has_shape = has_shape || shaped;
+    }
+    return packUnorm4x8(mist / float(side * side));
 }
 
 // Draws the block as two triangles; vertices are numbered along the rows of the grid of all blocks.
@@ -72,11 +89,8 @@ void main()
     const uint number = work_list[3u * look.max_tiles + look.max_blocks + gl_WorkGroupID.x];
     const uvec2 block = uvec2(number & 0xffffu, number >> 16);
     const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK + gl_LocalInvocationID.xy * uvec2(PACKED, 1u);
-    bool has_shape = false;
-    const float mist0 = texel_mist(first, has_shape), mist1 = texel_mist(first + uvec2(1u, 0u), has_shape);
-    const float mist2 = texel_mist(first + uvec2(2u, 0u), has_shape);
-    const float mist3 = texel_mist(first + uvec2(3u, 0u), has_shape);
-    const uint word = packUnorm4x8(vec4(mist0, mist1, mist2, mist3));
+    bool has_shape;
+    const uint word = SEVERAL ? mist_of_texels(first, has_shape) : mist_of_cells(first, has_shape);
     mist[(first.x + first.y * look.mist_pitch) / PACKED] = word;
     if (word != 0u)
         atomicOr(any_mist, 1u);

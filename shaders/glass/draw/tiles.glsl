@@ -37,14 +37,38 @@ uvec2 tiles_reached(vec2 middle, float reach_m)
     return uvec2(first) | uvec2(max(last - first + 1, ivec2(0))) << 16;
 }
 
-// Marks the tiles that film with a shape on a cell reaches.
+// The tiles that film with a shape on a cell reaches.
+void film_tiles_of(uvec2 cell, out ivec2 first, out ivec2 last)
+{
+    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
+}
+
 void mark_film_tiles(uvec2 cell)
 {
     ivec2 first, last;
-    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
+    film_tiles_of(cell, first, last);
     for (int y = first.y; y <= last.y; y++)
         for (int x = first.x; x <= last.x; x++)
             atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
+}
+
+// The same for cells in a row, of which `cells` has a bit each. One loop goes over all of their tiles: lanes whose
+// cells are done do not wait at each cell for those with more tiles.
+void mark_film_tiles_of(uvec2 first_cell, uint cells)
+{
+    ivec2 at = ivec2(1), first, last = ivec2(0);
+    while (true) {
+        if (at.y > last.y) {
+            if (cells == 0u)
+                break;
+            film_tiles_of(first_cell + uvec2(findLSB(cells), 0u), first, last);
+            cells &= cells - 1u;
+            at = first;
+        }
+        if (at.x <= last.x && at.y <= last.y)
+            atomicOr(tiles[tile_number(uvec2(at))].film, 1u);
+        at = at.x < last.x ? ivec2(at.x + 1, at.y) : ivec2(first.x, at.y + 1);
+    }
 }
 
 // A ball's reach. Mist is spread over one texel.
