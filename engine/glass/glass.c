@@ -331,6 +331,7 @@ static const virga_effect_pass passes[] = {
     STEP(particle_starts),
     STEP(particle_sort),
     STEP(push_particles),
+    STEP(merge_particles),
     STEP(to_drops_claim),
     STEP(to_drops),
     STEP(spawn_claim),

@@ -67,9 +67,9 @@ struct virga_glass {
     virga_bindings *bindings;
     virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
         *enter_cell, *move_drops, *capture_mark, *capture, *wipe_film, *lay_film, *split_drops, *empty_bins,
-        *particle_grid, *particle_starts, *particle_sort, *push_particles, *to_drops_claim, *to_drops, *spawn_claim,
-        *spawn_scan, *spawn, *end_tick, *dry_film, *film_compact, *measure, *flood, *recede, *break_film, *fog_begin,
-        *fog_grow, *fog_wipe, *fog_claim, *fog_take;
+        *particle_grid, *particle_starts, *particle_sort, *push_particles, *merge_particles, *to_drops_claim, *to_drops,
+        *spawn_claim, *spawn_scan, *spawn, *end_tick, *dry_film, *film_compact, *measure, *flood, *recede, *break_film,
+        *fog_begin, *fog_grow, *fog_wipe, *fog_claim, *fog_take;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
     float farthest_m;                                        /* max distance of a node from the pane's origin */
     bool masked;                                             /* some cells may have no glass */

@@ -14,13 +14,13 @@
 
 #define PI 3.14159265358979323846
 
-#define ROUNDS       VIRGA_GLASS_ROUNDS
-#define RELAX_ROUNDS 8u  /* even, so the final positions are in the buffer of the initial ones */
-#define DRY_SHARE    16u /* each tick dries the film of 1 / DRY_SHARE of the rows */
+#define ROUNDS    VIRGA_GLASS_ROUNDS
+#define DRY_SHARE 16u /* each tick dries the film of 1 / DRY_SHARE of the rows */
 
 #define TAIL_SHARE     0.12f /* max share of a running drop's water that a drop in its tail gets */
 #define HOLD_BACK      1.27  /* times the min radius of running drops: no glass holds larger drops, however uneven */
 #define FILM_M_S       0.1   /* the speed that settings.film_um is for */
+#define MIN_CROWD      12    /* neighbours of a particle in two rings, close together */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, without half the density */
 
 /* ---- statistics */
@@ -262,6 +262,19 @@ void glass_fill_grid(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->grid_rows += !out->grid_rows;
 }
 
+/* Water in front of a blade is one body, a ridge, and a ridge is at most as thick as a puddle:
+ * e = 2 sqrt(sigma / (rho g)) sin(angle / 2), with the contact angle (de Gennes, Brochard-Wyart and Quere, Capillarity
+ * and Wetting Phenomena, 2004, section 2.2). Particles of radius r have 2 pi r^3 / 3 of water each, so so thick a ridge
+ * has 3 e / (2 pi r^3) of them per area, and 6 e / r in a circle with a radius of 2 r: these overlap the one in its
+ * middle. With more of them the particles are denser than water can be before a blade. Never fewer than two rings of
+ * close neighbours: those are only being pushed apart. */
+static uint32_t crowd_of(const virga_glass *glass, double particle_m)
+{
+    const double angle = glass_rest_deg(&glass->settings) * PI / 180;
+    const double thick = 2 * sqrt(VIRGA_SURFACE_TENSION / (VIRGA_WATER_DENSITY * VIRGA_GRAVITY)) * sin(angle / 2);
+    return (uint32_t)fmax(6 * thick / particle_m, MIN_CROWD);
+}
+
 static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
 {
     const virga_glass_settings *s = &glass->settings;
@@ -272,6 +285,7 @@ static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
     /* The volume of a hemisphere on every kind of glass: water in front of a blade is higher than a drop at rest. */
     out->particle_nl = (uint32_t)fmax(2 * PI / 3 * particle * particle * particle * 1e12, 1);
     out->penalty = s->penalty;
+    out->crowd = crowd_of(glass, particle);
     out->band_m = (float)((double)s->particle_band * 2 * particle);
     out->hold_back_nl = (uint32_t)fmin(cap * hold_back * hold_back * hold_back * 1e12, 4e9);
     out->hold_back_cells = s->hold_back_cells;
@@ -473,10 +487,11 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
     over(glass, cmd, glass->particle_grid, PARTICLES);
     over(glass, cmd, glass->particle_starts, PARTICLES);
     over(glass, cmd, glass->particle_sort, PARTICLES);
-    for (uint32_t i = 0; i < RELAX_ROUNDS; i++) {
+    for (uint32_t i = 0; i < VIRGA_GLASS_RELAX_ROUNDS; i++) {
         push(glass, cmd, &i, 1);
         over(glass, cmd, glass->push_particles, PARTICLES);
     }
+    over(glass, cmd, glass->merge_particles, PARTICLES);
     over(glass, cmd, glass->to_drops_claim, PARTICLES);
     over(glass, cmd, glass->to_drops, PARTICLES);
     virga_pass_end(glass->base.context, cmd, scope);

@@ -27,6 +27,7 @@ typedef struct virga_glass_breath_gpu virga_glass_breath_gpu;
 #define VIRGA_GLASS_BINS             64 /* along a blade, for the film that it collects */
 #define VIRGA_GLASS_ROUNDS           8  /* max cells that a drop moves in a tick; even */
 #define VIRGA_GLASS_MAX_PARTS        64 /* max particles that one drop becomes */
+#define VIRGA_GLASS_RELAX_ROUNDS     8  /* in which particles push each other in a tick */
 #define VIRGA_GLASS_BLOCKS_PER_GROUP 8  /* blocks of cells per workgroup of the measuring pass */
 #define VIRGA_GLASS_FILM_BLOCK       16 /* cells along the side of a block; blocks without film are skipped */
 #define VIRGA_GLASS_SITE_SPAN        4  /* sites along the side of the largest area whose film becomes one drop */
@@ -123,6 +124,7 @@ struct virga_glass_tick_gpu {
     float particle_m;        /* m, radius of a particle */
     uint particle_nl;        /* nl, water of a particle */
     float penalty;           /* [0; 1], extra push between particles, as a fraction of their overlap */
+    uint crowd;              /* a particle that overlaps so many others may merge with one */
     float band_m;            /* m, width of the band of particles on each side of a blade */
     uint hold_back_nl;       /* nl, drops of at least this water keep particles near them from becoming drops */
     uint hold_back_cells;    /* reach of that effect, in cells on each side */

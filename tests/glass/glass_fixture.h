@@ -22,7 +22,7 @@ typedef struct glass_fixture {
     /* Read back. */
     const virga_glass_state_gpu *state;
     const virga_glass_drop_gpu *drops;
-    const uint32_t *occupants, *film, *claims, *passed, *grid, *film_blocks;
+    const uint32_t *occupants, *film, *claims, *passed, *grid, *film_blocks, *list, *active, *moved;
 } glass_fixture;
 
 /* A small pane. */
@@ -41,7 +41,8 @@ static inline void glass_fixture_buffers(glass_fixture *f)
 {
     const virga_glass *g = f->glass;
     const VkDeviceSize size = g->state->size + g->drops->size + g->occupants->size + g->film->size + g->claims->size +
-                              g->passed->size + g->grid->size + g->film_blocks->size;
+                              g->passed->size + g->grid->size + g->film_blocks->size + g->list->size + g->active->size +
+                              g->moved->size;
     char *error = f->gpu.error;
     REQUIRE(host_buffer_create(&f->gpu.device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
                                "pane down", &f->download, error, sizeof f->gpu.error));
@@ -91,6 +92,9 @@ static inline void glass_fixture_read(glass_fixture *f, VkCommandBuffer cmd)
     f->passed = glass_fixture_copy(f, cmd, f->glass->passed, &offset);
     f->grid = glass_fixture_copy(f, cmd, f->glass->grid, &offset);
     f->film_blocks = glass_fixture_copy(f, cmd, f->glass->film_blocks, &offset);
+    f->list = glass_fixture_copy(f, cmd, f->glass->list, &offset);
+    f->active = glass_fixture_copy(f, cmd, f->glass->active, &offset);
+    f->moved = glass_fixture_copy(f, cmd, f->glass->moved, &offset);
 }
 
 /* Adds a drop to the next step. It lands in the step's first tick. */

@@ -381,7 +381,7 @@ typedef struct virga_glass_settings {
     /* [0; VIRGA_GLASS_MAX_WIPERS] wipers in use. Default 0. */
     uint32_t wiper_count;
 
-    /* [0.2; 5] radius of the particles beside blades (mm). Each has the water of a hemisphere. Default 1.5. */
+    /* [0.2; 5] radius of the particles beside blades (mm). Each has a hemisphere of water, or more. Default 1.5. */
     float particle_radius_mm;
 
     /* [0; 1] particles that overlap push each other farther than just apart, by this factor times their overlap.

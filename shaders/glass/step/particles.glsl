@@ -6,6 +6,8 @@
 //     particle_grid    counts the particles of each cell
 //     particle_starts  gives each cell that has any its place among the sorted particles
 //     particle_sort    writes them there
+//     push_particles   moves them, in rounds; in the last it looks for those that merge
+//     merge_particles  merges them
 //
 // A particle's number here is its index among the active slots, which list all particles first. Its place is its index
 // among the sorted particles.

@@ -43,11 +43,12 @@ void add_to_film(vec2 at, uint water)
     count(VIRGA_GLASS_WITHOUT_SLOT, 1u);
 }
 
-// Spawns the particles of one seed, each shifted a little at random (Goto et al. 2009, section 4.4).
+// Spawns the particles of one seed, each shifted a little at random (Goto et al. 2009, section 4.4). How many seeds are
+// before this one depends on the number of ticks in a step, so its number among all is no part of the random number.
 void spawn_particles(uint i, virga_glass_seed_gpu seed)
 {
     for (uint k = 0u; k < seed.count; k++) {
-        const uint hash = virga_hash4(seed.id, tick.tick, i, k), rank = ranks[i] + k;
+        const uint hash = virga_hash4(seed.id, tick.tick, i - landing_count(), k), rank = ranks[i] + k;
         const float angle = 6.2831853 * virga_unit(hash),
                     distance = tick.particle_m * (0.2 + 0.8 * virga_unit(virga_hash1(hash)));
         const vec2 at = to_vec2(seed.position) + distance * vec2(cos(angle), sin(angle));

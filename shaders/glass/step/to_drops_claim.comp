@@ -29,16 +29,16 @@ bool near_large_drop(ivec2 cell)
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
-    if (place >= state.active_particles)
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= state.active_particles)
         return;
-    const uvec3 own = moved[moved_at(place, 0u)]; // the array that the last of an even number of rounds wrote
-    const uint slot = slot_of_active(own.z);
-    const vec2 at = uintBitsToFloat(own.xy);
+    const uint slot = slot_of_active(i);
     grid[drops[slot].cell] = 0u; // every particle clears its cell: a tick begins with an empty grid
-    if (place == 0u)
+    if (i == 0u)
         places[places_taken()] = 0u;
-    drops[slot].position = to_array(at);
+    if ((drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_PARTICLE)
+        return; // it has merged
+    const vec2 at = to_vec2(drops[slot].position);
     const ivec2 cell = cell_at(at);
     const bool in_a_band = is_in_band(at);
     if (!has_glass(at)) {
