@@ -1,6 +1,6 @@
 // contact.comp - wheels and feet move the water under them: some flies, some is pushed into the cells around.
 // One workgroup, in which each invocation takes a run of the cells near contacts, so that droplets are listed in the
-// order of cells. Reads: floors. Writes: cells, arrivals, the list of droplets, counts, wakes.
+// order of cells. Reads: floors. Writes: cells, arrivals, the list of droplets, counts, wakes, spawns.
 //
 // A cell belongs to the first contact that covers it, and nothing that is written here is read here but by the
 // invocation that writes it. So the result does not depend on the order of invocations.
@@ -13,6 +13,7 @@
 #include "contact_throw.glsl"
 #include "rings.glsl"
 #include "wakes.glsl"
+#include "contact_sheet.glsl"
 #define SCAN_LANES uint(VIRGA_GROUND_LANES)
 #include "gpu/group_scan.glsl"
 
@@ -85,4 +86,6 @@ void main()
         handed_head.group_count = uint[3]((listed + 63u) / 64u, 1u, 1u);
     }
     start_wakes();
+    barrier();
+    start_sheets();
 }

@@ -29,12 +29,28 @@ float normal_of(uint hash)
     return 1.7320508 * (dot(four, vec4(1.0)) - 2.0);
 }
 
+// Of a drop that has all of it: (6 volume / pi)^(1/3).
+float diameter_of_water(uint water_nl) { return pow(1.909859317e-12 * float(water_nl), 1.0 / 3.0); }
+
 float diameter_of(float width_m, float speed, uint hash, uint water_nl)
 {
     const float we = max(DENSITY * speed * speed * width_m / TENSION, 1.0);
     const float d = BY_WATER * MEAN_M * sqrt(MEAN_WE / we) * exp(SPREAD * normal_of(hash));
-    const float all_of_it = pow(1.909859317e-12 * float(water_nl), 1.0 / 3.0); // (6 volume / pi)^(1/3)
-    return min(clamp(d, 0.0001, 0.005), all_of_it);
+    return min(clamp(d, 0.0001, 0.005), diameter_of_water(water_nl));
+}
+
+// Drops of a foot's sheet. Its rim is as thick as b = sqrt(sigma / (rho a)), where a is its deceleration, here that of
+// gravity (Wang, Dandekar, Bustos, Poulain and Bourouiba 2018, Universal rim thickness in unsteady sheet
+// fragmentation): 2.7 mm. The fingers that grow from it are 0.6 as thick (crown_sheet.h), and break into drops 1.89
+// times as wide as they, of the volume of one wavelength (Rayleigh). Their sizes have the gamma law of fourth order
+// (Villermaux, Marmottant and Duplat 2004, Ligament-mediated spray formation), whose mean volume is that of a drop
+// (5 x 6 / 4^2)^(1/3) = 1.233 times as wide as the mean: so this is 2.5 mm. A sum of four exponential numbers has that
+// law.
+#define FOOT_MEAN_M 0.0025
+float foot_diameter(uint hash)
+{
+    const vec4 four = unpackUnorm4x8(hash) * (255.0 / 256.0) + (0.5 / 256.0);
+    return clamp(-0.25 * FOOT_MEAN_M * log(four.x * four.y * four.z * four.w), 0.0005, 0.006);
 }
 
 // What begins at a place of the contact: along, across, up; and moves.
@@ -74,15 +90,16 @@ Start start_at_wheel(uint contact, Plan plan, uint hash)
     return start;
 }
 
-// A ring of drops around a foot, which rises at 15 to 50 degrees, and goes along with the foot a little.
+// Drops from the edge of a foot's sheet: they go out and up at half the speed each as it does (rising_share), some of
+// them a little faster, so that they fly ahead of it.
 Start start_at_foot(uint contact, Plan plan, uint hash)
 {
-    const float rises = mix(0.26, 0.87, virga_unit(hash)), turn = 0.3 * normal_of(virga_hash2(hash, 1u));
+    const float turn = 0.2 * normal_of(virga_hash2(hash, 1u));
     const vec2 o = plan.outward, out_now = vec2(o.x * cos(turn) - o.y * sin(turn), o.x * sin(turn) + o.y * cos(turn));
-    const float speed = plan.out_m_s * (0.75 + 0.5 * virga_unit(virga_hash2(hash, 2u)));
+    const vec2 faster = 1.0 + vec2(0.35, 0.25) * vec2(virga_unit(hash), virga_unit(virga_hash2(hash, 2u)));
     Start start;
     start.at = vec3(plan.at + o * max(plan.push_m - tick.cell_m, 0.0), 0.005);
-    start.velocity = vec3(speed * cos(rises) * out_now, speed * sin(rises));
+    start.velocity = 0.5 * plan.out_m_s * vec3(faster.x * out_now, faster.y);
     start.velocity.x += 0.3 * tick.contacts[contact].speed;
     return start;
 }
@@ -106,11 +123,43 @@ void write_droplet(Near near, Start start, float ago_s, virga_handed_droplet_gpu
     velocity.y -= GRAVITY * late_s;
     droplet.position = float[3](position.x, position.y, position.z);
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
-    droplet.age_s = SHOWN_S + late_s;
+    // Those of a foot appear when they leave the sheet, which is drawn as one.
+    droplet.age_s = (tick.contacts[near.contact].radius_m > 0.0 ? SHOWN_S : 0.001) + late_s;
     handed[at] = droplet;
 }
 
-void throw_droplets(Near near, Plan plan, uint first)
+// Up to a factor.
+float volume_of(uint hash)
+{
+    const float d = foot_diameter(virga_hash2(hash, 7u));
+    return d * d * d;
+}
+
+// Each stands for as many of its size, so the water is shared by their volumes.
+void throw_from_foot(Near near, Plan plan, uint first)
+{
+    float all = 0.0;
+    for (uint i = 0u; i < plan.droplets; i++)
+        all += volume_of(virga_hash2(plan.hash, i));
+    uint left_nl = plan.sheet_nl;
+    for (uint i = 0u; i < plan.droplets; i++) {
+        const uint hash = virga_hash2(plan.hash, i), later = plan.droplets - 1u - i;
+        const float volume = volume_of(hash);
+        const uint share_nl = clamp(uint(float(plan.sheet_nl) * (volume / all)), 1u, left_nl - later);
+        virga_handed_droplet_gpu droplet;
+        droplet.id = plan.hash;
+        droplet.number = i;
+        droplet.water_nl = later == 0u ? left_nl : share_nl;
+        left_nl -= droplet.water_nl;
+        droplet.diameter_m = min(foot_diameter(virga_hash2(hash, 7u)), diameter_of_water(droplet.water_nl));
+        const float d = droplet.diameter_m;
+        droplet.drops = float(droplet.water_nl) * 1.909859317e-12 / (d * d * d);
+        const float ago = virga_unit(virga_hash2(hash, 5u));
+        write_droplet(near, start_at_foot(near.contact, plan, hash), ago * tick.tick_s, droplet, first + i);
+    }
+}
+
+void throw_from_wheel(Near near, Plan plan, uint first)
 {
     const uint contact = near.contact, all_nl = plan.tread_nl + plan.sheet_nl;
     const uint by_water = uint(float(plan.droplets) * (float(plan.tread_nl) / float(all_nl)) + 0.5);
@@ -123,9 +172,8 @@ void throw_droplets(Near near, Plan plan, uint first)
         const uint of_kind = tread ? treads : plan.droplets - treads, number = tread ? i : i - treads;
         const uint kind_nl = tread ? plan.tread_nl : plan.sheet_nl;
         const uint hash = virga_hash2(plan.hash, i);
-        const float by_foot = tick.contacts[contact].radius_m > 0.0 ? passed : virga_unit(virga_hash2(hash, 5u));
         const float cell_s = swept > 0.0 ? min(tick.cell_m / swept, 1.0) : 0.0;
-        const float ago = clamp(by_foot + cell_s * (virga_unit(virga_hash2(hash, 6u)) - 0.5), 0.0, 1.0);
+        const float ago = clamp(passed + cell_s * (virga_unit(virga_hash2(hash, 6u)) - 0.5), 0.0, 1.0);
         virga_handed_droplet_gpu droplet;
         droplet.id = plan.hash;
         droplet.number = i;
@@ -135,9 +183,15 @@ void throw_droplets(Near near, Plan plan, uint first)
         droplet.diameter_m = diameter_of(width_m, speed, virga_hash2(hash, 7u), droplet.water_nl);
         const float d = droplet.diameter_m;
         droplet.drops = float(droplet.water_nl) * 1.909859317e-12 / (d * d * d);
-        const Start start = tread                                     ? start_on_tread(contact, hash)
-                            : tick.contacts[contact].radius_m > 0.0 ? start_at_wheel(contact, plan, hash)
-                                                                      : start_at_foot(contact, plan, hash);
+        const Start start = tread ? start_on_tread(contact, hash) : start_at_wheel(contact, plan, hash);
         write_droplet(near, start, ago * tick.tick_s, droplet, first + i);
     }
+}
+
+void throw_droplets(Near near, Plan plan, uint first)
+{
+    if (tick.contacts[near.contact].radius_m > 0.0)
+        throw_from_wheel(near, plan, first);
+    else
+        throw_from_foot(near, plan, first);
 }

@@ -44,6 +44,8 @@
 #define VIRGA_CROWN_WAVE 9.01f
 /* Growth from a hundredth of the radius to all of it, at the rate 0.343 sqrt(tension / (density radius^3)). */
 #define VIRGA_CROWN_BREAKS 13.4f
+/* Share of a foot's sheet that flies off as drops: what its fingers hold when it is highest, FINGERS of a half. */
+#define VIRGA_CROWN_SHED 0.2f
 
 /* Share of its water that has come up. */
 VIRGA_CROWN_FN float virga_crown_fed(float share)

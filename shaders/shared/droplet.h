@@ -34,6 +34,7 @@ struct virga_droplet_gpu {
 #define VIRGA_DROPLET_INDEX(kind) (((kind) >> 16) & 255u) /* index among the droplets of its splash */
 /* index among all droplets of its drop, over all splashes of the drop */
 #define VIRGA_DROPLET_NUMBER(kind) (((kind) >> 16) & 8191u)
+#define VIRGA_SPLASH_OF_FOOT       0x00000800u            /* (splash) see VIRGA_SPAWN_SHEET */
 #define VIRGA_DROPLET_SPRAY        0x00000800u            /* it was handed over, see handed_droplet.h */
 #define VIRGA_DROPLET_PANE(kind)   (((kind) >> 12) & 15u) /* 1 + number of the pane that it has hit; 0: none */
 #define VIRGA_DROPLET_ALIVE        0x80000000u
@@ -50,13 +51,14 @@ struct virga_splash_gpu {
     float speed_m_s;  /* m/s, of the drop */
     /* two half floats: depth of the water below (mm); splashes that it represents in the picture */
     uint depth_weight;
-    float normal[3]; /* of the surface, unit length */
+    float normal[3]; /* of the surface, unit length; (sheet of a foot) level direction of its long axis */
     uint random;     /* a hash of its own */
     float life_s;    /* s, lifetime */
-    /* two half floats: velocity in x and z (m/s) that the drop's direction adds to its piles, so that they lean */
+    /* two half floats: velocity in x and z (m/s) that the drop's direction adds to its piles, so that they lean; (sheet
+     * of a foot) half of its long and of its short axis when it is highest (m) */
     uint lean;
-    /* model, material and state as in VIRGA_DROPLET_...; bits 16 to 23: number of droplets; 24 to 31: their water over
-     * that of the crown, in units of 1 / 256 */
+    /* model, material and state as in VIRGA_DROPLET_...; bit 11: the sheet of a foot, see VIRGA_SPAWN_SHEET; bits 16 to
+     * 23: number of droplets; 24 to 31: their water over that of the crown, in units of 1 / 256 */
     uint kind;
     uint id; /* of the drop */
 };

@@ -26,9 +26,15 @@ struct virga_spawn_gpu {
     uint water_nl;     /* nl that fly up, of all drops that it represents in the water balance; 0: no droplets */
     uint random;       /* a hash of its own: source of all random numbers of the splash */
     /* bits 0 to 7: state (ground_limits.h); 8 to 15: material; 16 to 23: model (splash_rule.h); 24 to 28: index among
-     * the splashes of its drop, if the drop represents many */
+     * the splashes of its drop, if the drop represents many; VIRGA_SPAWN_SHEET */
     uint kind;
 };
+
+/* Not a drop's splash but the sheet that a foot throws up, an oval crown on level water. Then normal is the level
+ * direction of its long axis. Velocity is x: half of the long axis when it is highest, over the time until then; y: minus
+ * the speed at which it rises; z: as x, of the short axis. A ball of diameter_m has a sixth of its water
+ * (crown_sheet.h), and water_nl is 0: its drops are handed over (handed_droplet.h). */
+#define VIRGA_SPAWN_SHEET 0x20000000u
 
 /* Head of the spawns, 64 bytes. The spawns follow, ordered by tick. */
 struct virga_spawns_gpu {

@@ -436,6 +436,62 @@ static void a_splash_that_stands_for_several_shows_them_side_by_side(void **stat
     close_shot(&s);
 }
 
+/* ---- sheets of feet */
+
+/* How wide and high a picture is covered, in pixels. */
+static void extent(const shot *s, const float *pixels, double wide_high[2])
+{
+    uint32_t low[2] = {UINT32_MAX, UINT32_MAX}, high[2] = {0, 0};
+    for (size_t i = 0; i < pixel_count(s); i++) {
+        if (!(pixels[i * 4 + 3] > 0.004f))
+            continue;
+        const uint32_t at[2] = {(uint32_t)(i % s->picture.width), (uint32_t)(i / s->picture.width)};
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
+            high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
+        }
+    }
+    for (int axis = 0; axis < 2; axis++)
+        wide_high[axis] = high[axis] >= low[axis] ? high[axis] - low[axis] + 1 : 0;
+}
+
+/* Seen from its side and from its end, in the film's style: its widths are as its axes, 0.3 and 0.2 m, and it is as
+ * high as what is thrown up at 1 m/s. Fingers reach up to 1.38 times the height, and the wall's radius there is 1.02
+ * times the axis. */
+static void the_sheet_of_a_foot_is_as_long_as_its_axes(void **state)
+{
+    (void)state;
+    double seen[2][2];
+    shot s;
+    open_shot(&s);
+    s.f.settings.style = VIRGA_SPLASH_STYLE_FILM;
+    s.f.settings.hole_um = 0;
+    apply_settings(&s);
+    const double up_s = 1 / GRAVITY, high_m = 0.5 / GRAVITY, far_m = 1.5;
+    for (int turned = 0; turned < 2; turned++) {
+        splash_fixture_clear(&s.f);
+        virga_spawn_gpu *spawn = splash_fixture_spawn(&s.f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_5);
+        spawn->kind = VIRGA_GROUND_PUDDLE_5 | VIRGA_SPLASH_CROWN_CONE << 16 | VIRGA_SPAWN_SHEET;
+        const float velocity[3] = {(float)(0.3 / up_s), -1, (float)(0.2 / up_s)}, along[3] = {!turned, 0, turned};
+        memcpy(spawn->velocity, velocity, sizeof velocity);
+        memcpy(spawn->normal, along, sizeof along);
+        spawn->diameter_m = 0.02f;
+        spawn->water_nl = 0;
+        splash_fixture_step(&s.f, 1);
+        aim(&s, (const double[3]){0, 0.03, far_m}, (const double[3]){0, 0.03, 0});
+        s.after_s = up_s - s.f.splash->def.tick_s;
+        extent(&s, draw_frame(&s), seen[turned]);
+        assert_int_equal(prepared(&s)->crowns.instance_count, 1);
+    }
+    const double pixel = pixel_m(&s, far_m);
+    printf("a sheet of 0.6 x 0.4 m, %.3f m high: %.3f m and %.3f m wide, %.3f m high\n", high_m, seen[0][0] * pixel,
+           seen[1][0] * pixel, seen[0][1] * pixel);
+    assert_true(seen[0][0] * pixel > 0.5 && seen[0][0] * pixel < 0.66);
+    assert_near(seen[0][0] / seen[1][0], 1.5, 0.1);
+    assert_true(seen[0][1] * pixel > high_m && seen[0][1] * pixel < 2.2 * high_m);
+    close_shot(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -450,6 +506,7 @@ int main(void)
         cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
         cmocka_unit_test(a_small_crown_covers_the_same_with_its_parts_and_as_a_spot),
         cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
+        cmocka_unit_test(the_sheet_of_a_foot_is_as_long_as_its_axes),
         cmocka_unit_test(a_splash_that_stands_for_several_shows_them_side_by_side),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

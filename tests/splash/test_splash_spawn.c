@@ -456,6 +456,36 @@ static void test_spawns_that_no_device_can_bind_are_refused(void **state)
     splash_fixture_submit(&f);
 }
 
+static double half_of(uint32_t bits)
+{
+    return ldexp(1024 + (bits & 1023), (int)(bits >> 10 & 31) - 25);
+}
+
+/* Its axes are those of the spawn's velocity when gravity has stopped it, and it lives twice as long. */
+static void test_the_sheet_of_a_foot_rises_by_its_speed(void **state)
+{
+    (void)state;
+    splash_fixture_clear(&f);
+    virga_spawn_gpu *spawn = splash_fixture_spawn(&f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_5);
+    spawn->kind = VIRGA_GROUND_PUDDLE_5 | VIRGA_SPLASH_CROWN_CONE << 16 | VIRGA_SPAWN_SHEET;
+    spawn->velocity[0] = 3;
+    spawn->velocity[1] = -1.5f;
+    spawn->velocity[2] = 2;
+    spawn->normal[0] = 0.6f;
+    spawn->normal[1] = 0;
+    spawn->normal[2] = 0.8f;
+    spawn->water_nl = 0;
+    splash_fixture_step(&f, 1);
+    assert_int_equal(f.state->staying, 0);
+    const virga_splash_gpu *splash = &f.splashes[f.state->tick_splash % f.splash->def.max_splashes];
+    const double up_s = 1.5 / 9.80665;
+    assert_true(splash->kind & VIRGA_SPLASH_OF_FOOT);
+    assert_true(fabs((double)splash->life_s - 2 * up_s) < 1e-5 && splash->speed_m_s == 1.5f);
+    assert_true(fabs(half_of(splash->lean) - 3 * up_s) < 1e-3 && fabs(half_of(splash->lean >> 16) - 2 * up_s) < 1e-3);
+    assert_true(splash->normal[0] == 0.6f && splash->normal[2] == 0.8f);
+    assert_true(splash->position[0] == spawn->position[0] && splash->position[2] == spawn->position[2]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -476,6 +506,7 @@ int main(void)
         cmocka_unit_test(test_drops_that_come_in_aslant_send_their_droplets_on),
         cmocka_unit_test(test_drops_that_meet_a_slope_head_on_do_not),
         cmocka_unit_test(test_spawns_that_no_device_can_bind_are_refused),
+        cmocka_unit_test(test_the_sheet_of_a_foot_rises_by_its_speed),
     };
     const int failed = cmocka_run_group_tests(tests, open_all, NULL);
     return effect_fixture_close(failed + (int)splash_fixture_end(&f));

@@ -356,7 +356,23 @@ static void sole_at(const scene_vehicle *from, const scene_foot *foot, double ti
     to_world(transform, local_m, sole_m);
 }
 
-static void place_foot(const scene_vehicle *from, uint32_t index, double time_s, virga_foot *out)
+/* The fastest that a sole came down in a frame. One that stands at its end may have landed in it, and that is what
+ * throws water. */
+static double falls_m_s(const scene_vehicle *from, const scene_foot *foot, double time_s, double frame_s)
+{
+    double at_m[3], later_m = 0, fastest = 0;
+    float transform[12];
+    const int steps = (int)fmin(ceil(frame_s / STEP_S), 240);
+    for (int k = 0; k <= steps; k++) {
+        sole_at(from, foot, time_s - k * STEP_S, transform, at_m);
+        if (k > 0)
+            fastest = fmin(fastest, (later_m - at_m[1]) / STEP_S);
+        later_m = at_m[1];
+    }
+    return fastest;
+}
+
+static void place_foot(const scene_vehicle *from, uint32_t index, double time_s, double frame_s, virga_foot *out)
 {
     const scene_foot *given = &from->feet[index];
     float now[12], before[12];
@@ -369,6 +385,8 @@ static void place_foot(const scene_vehicle *from, uint32_t index, double time_s,
         out->velocity_m_s[axis] = (float)fmin(fmax((out->sole_m[axis] - then_m[axis]) / STEP_S, -1000), 1000);
         out->heading[axis] = -now[4 * axis + 2];
     }
+    if (out->velocity_m_s[1] > -0.01f)
+        out->velocity_m_s[1] += (float)fmax(falls_m_s(from, given, time_s, frame_s), -1000);
 }
 
 /* Behind the lights of the scene. */
@@ -447,7 +465,7 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
             virga_foot *foot = &all->feet[feet];
             *foot = virga_default_foot();
             foot->id = id++;
-            place_foot(&from->vehicles[i], k, time_s, foot);
+            place_foot(&from->vehicles[i], k, time_s, 1 / s->scene->frames.fps, foot);
             feet += hypot((double)foot->heading[0], (double)foot->heading[2]) > 0.1;
         }
     }

@@ -135,9 +135,10 @@ typedef struct virga_ground_settings {
      * full, and humps held half of what roughness holds back. Default 0: dry. */
     float start_water_mm;
 
-    /* [0; 64] droplets at most that a wheel or a foot throws out of a cell in a tick. Each stands for many of its size.
-     * 0: none fly, all water is pushed aside. Costs what droplets cost (virga/splash.h): the four wheels of a car throw
-     * a hundred times that number in a tick at 60 km/h, and each is in the air for half a second. Default 12. */
+    /* [0; 64] droplets at most that a wheel throws out of a cell in a tick. A foot throws once in a step: up to four
+     * times as many, but at most 64. Each stands for many of its size. 0: none fly, all water is pushed aside, and feet
+     * throw no sheets. Costs what droplets cost (virga/splash.h): the four wheels of a car throw a hundred times that
+     * number in a tick at 60 km/h, and each is in the air for half a second. Default 12. */
     uint32_t contact_droplets;
 
     /* [0; 4] how high the waves are that running water has in the ripple map: those over the stones of its bed and over

@@ -55,6 +55,14 @@ Shape shape_of(virga_splash_gpu splash, float ago_s)
     return s;
 }
 
+// An ellipse: longer along one direction, shorter across it, by the same length.
+vec3 oval(Crown crown, vec3 outward)
+{
+    const vec3 along = vec3(crown.along.x, 0.0, crown.along.y) / max(crown.radius, 1e-6);
+    const float more = length(along);
+    return outward * (1.0 - more) + along * (2.0 * dot(outward, along) / max(more, 1e-6));
+}
+
 // The point of a sheet at an angle and a fraction of the height.
 vec3 sheet_point(Shape s, float angle, float up)
 {
@@ -67,7 +75,7 @@ vec3 sheet_point(Shape s, float angle, float up)
     const float high = VIRGA_CROWN_REACH * up;
     const float radius = s.crown.radius * (VIRGA_CROWN_FOOT + VIRGA_CROWN_FLARE * high * high);
     const vec3 leaned = vec3(s.crown.lean.x, 0.0, s.crown.lean.y) * (0.004 * up * up);
-    return outward * radius + s.crown.normal * (s.height * high) + leaned;
+    return oval(s.crown, outward) * radius + s.crown.normal * (s.height * high) + leaned;
 }
 
 // How its water is shared. A droplet that falls back is too slow to make fingers: the collar around it is low.
@@ -123,8 +131,10 @@ void main()
     const float min_height = s.min_height / max(s.height, 1e-6);
     const float visible = disk || min_height >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - min_height) + 0.25, 0.0, 1.0);
     const float high = VIRGA_CROWN_REACH * up;
-    place = vec4(angle, s.height * high, max(s.height, 1e-6),
-                 max(s.crown.radius, 1e-5) * (VIRGA_CROWN_FOOT + VIRGA_CROWN_FLARE * high * high));
+    // Around an oval the radius is the way per angle.
+    const bool round = now.along == vec2(0.0);
+    const float wide = max(s.crown.radius, 1e-5) * (VIRGA_CROWN_FOOT + VIRGA_CROWN_FLARE * high * high);
+    place = vec4(angle, s.height * high, max(s.height, 1e-6), round ? wide : max(10.0 * length(around), 1e-5));
     write_water(now, disk);
     const float fade = disk ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
     gl_Position = project(to_mat(view.clip_from_rel), position);

@@ -76,6 +76,8 @@ struct Crown {
     vec2 lean;
     float radius, height;  // at that time
     float widest, highest; // m
+    vec2 along;            // (of a foot) x and z of its long axis, times by how much that is longer on each side, at
+                           // that time (m)
     float share, life_s;   // fraction of its life
     float flown;           // share of its water that flies away as droplets
     uint model, droplets, random;
@@ -105,6 +107,7 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     crown.center = to_vec(splash.position) + to_vec(view.origin_offset);
     crown.normal = to_vec(splash.normal);
     crown.lean = unpackHalf2x16(splash.lean);
+    crown.along = vec2(0.0);
     crown.model = VIRGA_DROPLET_MODEL(splash.kind);
     crown.droplets = splash.kind >> 16 & 255u;
     crown.flown = float(splash.kind >> 24) / 256.0;
@@ -120,6 +123,15 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
         highest = min(highest, 1.5 * splash.diameter_m);
         widest = min(widest, 1.5 * splash.diameter_m);
     }
+    const bool of_foot = (splash.kind & VIRGA_SPLASH_OF_FOOT) != 0u;
+    if (of_foot) {
+        // It rises at its speed until gravity has stopped it. Its width is the mean of those along and across.
+        highest = 0.5 * splash.speed_m_s * splash.speed_m_s / GRAVITY;
+        widest = 0.5 * (crown.lean.x + crown.lean.y);
+        crown.along = crown.normal.xz * (0.5 * (crown.lean.x - crown.lean.y));
+        crown.normal = vec3(0.0, 1.0, 0.0);
+        crown.lean = vec2(0.0);
+    }
     const float life = max(crown.model == VIRGA_SPLASH_DOT ? DOT_S : crown_time(highest), 1e-3);
     crown.share = age / life;
     crown.widest = widest;
@@ -127,6 +139,7 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     crown.life_s = life;
     crown.height = age < 0.0 || age > life ? 0.0 : highest * crown_rise(crown.share);
     crown.radius = widest * crown_spread(crown.share);
+    crown.along *= crown_spread(crown.share);
     if (crown.model == VIRGA_SPLASH_DISK) {
         // It spreads at once, shrinks to two thirds, and dries in the end.
         const float spread = smoothstep(0.0, 0.004, age), back = smoothstep(0.006, 0.05, age);

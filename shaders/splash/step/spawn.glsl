@@ -31,7 +31,12 @@ virga_splash_rule_gpu rule_of(virga_spawn_gpu spawn)
         .rules[((spawn.kind >> 8) & 31u) * VIRGA_GROUND_STATES + min(spawn.kind & 255u, VIRGA_GROUND_STATES - 1u)];
 }
 
-float drop_speed(virga_spawn_gpu spawn) { return length(to_vec(spawn.velocity)); }
+bool is_of_foot(virga_spawn_gpu spawn) { return (spawn.kind & VIRGA_SPAWN_SHEET) != 0u; }
+
+float drop_speed(virga_spawn_gpu spawn)
+{
+    return is_of_foot(spawn) ? max(-spawn.velocity[1], 0.0) : length(to_vec(spawn.velocity));
+}
 
 float weber_number(virga_spawn_gpu spawn)
 {

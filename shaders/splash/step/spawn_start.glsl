@@ -34,11 +34,15 @@ Frame surface_frame(vec3 normal)
 vec3 lean_of(virga_spawn_gpu spawn)
 {
     const vec3 velocity = to_vec(spawn.velocity), normal = to_vec(spawn.normal);
+    if (is_of_foot(spawn)) // the half axes instead, see droplet.h
+        return vec3(velocity.x, 0.0, velocity.z) * (-velocity.y / GRAVITY);
     return tick.bounce * (velocity - dot(velocity, normal) * normal);
 }
 
 float splash_life(virga_spawn_gpu spawn)
 {
+    if (is_of_foot(spawn))
+        return 2.0 * drop_speed(spawn) / GRAVITY;
     switch (spawn_model(spawn)) {
     case VIRGA_SPLASH_CROWN_CONE: return crown_time(crown_height(spawn.diameter_m, weber_number(spawn)));
     case VIRGA_SPLASH_DISK: return DISK_S;
@@ -53,6 +57,8 @@ vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec
 // Water of its droplets over that of the crown (crown_sheet.h), in units of 1 / 256.
 uint flown_share(virga_spawn_gpu spawn, uint droplets)
 {
+    if (is_of_foot(spawn))
+        return uint(256.0 * VIRGA_CROWN_SHED);
     const float drop_nl = 0.5235988e12 * spawn.diameter_m * spawn.diameter_m * spawn.diameter_m;
     const float share = float(spawn.water_nl) / max(VIRGA_CROWN_DROPS * spawn.drops * drop_nl, 1e-6);
     return droplets > 0u ? uint(256.0 * clamp(share, 0.0, 0.9)) : 0u;
@@ -75,7 +81,7 @@ void write_splash(uint index, uint first, virga_spawn_gpu spawn, vec3 position, 
     splash.life_s = splash_life(spawn);
     splash.lean = halves(lean.x, lean.z);
     splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16 |
-                  flown_share(spawn, droplets) << 24;
+                  flown_share(spawn, droplets) << 24 | (is_of_foot(spawn) ? VIRGA_SPLASH_OF_FOOT : 0u);
     splash.id = spawn.id;
     const uvec4 texels[4] = texels_of(splash);
     const uint texel = 4u * (index & (tick.max_splashes - 1u));
@@ -192,7 +198,7 @@ void start_droplets(virga_spawn_gpu spawn, vec3 center, uint first, uint n)
 // overlap. Splashes with droplets stay where their droplets start.
 vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
 {
-    if (spawn.kind >> 24 == 0u || droplets > 0u)
+    if ((spawn.kind >> 24 & 31u) == 0u || droplets > 0u)
         return vec3(0.0);
     const Frame frame = surface_frame(to_vec(spawn.normal));
     const uint hash = virga_hash2(spawn.random, BESIDE_HASH);
