@@ -124,6 +124,36 @@ static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
     close_shot(&s);
 }
 
+/* Half of the light of the drop's middle and half of that of its rim, as r^2 has the mean 1/2 over a disc. */
+static void a_streak_has_the_same_mean_light_however_blurred(void **state)
+{
+    (void)state;
+    shot s;
+    double distance = 0;
+    open_shot(&s, 40);
+    rain_of_big_drops(&s);
+    add_picture(&s, 320, 240);
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    s.f.settings.lighting.environment_sh[0][1] = 1 / 0.282095f;
+    s.f.settings.lighting.environment_sh[2][1] = 1; /* what is behind the camera is lighter */
+    s.f.settings.streak_gain = 100;
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    const uint32_t id = streak_list(&s)[choose_streak(&s, &distance)].id;
+    const double pixel = 2 / (fabs((double)s.camera.clip_from_view[5]) * 240);
+    for (int blur = 1; blur <= 8; blur *= 2) {
+        s.aperture_m = (float)(blur * pixel * distance);
+        const float *pixels = draw_only(&s, id);
+        const virga_streak_gpu *streak = &streak_list(&s)[s.only];
+        const double mean = sum_of(&s, pixels, 1) / sum_of(&s, pixels, 3);
+        const double center = high_half(streak->light[0]), rim = low_half(streak->light[2]);
+        printf("blurred over %d pixels: %.3f; %.3f in the middle, %.3f at the rim\n", blur, mean, center, rim);
+        assert_true(rim > 1.2 * center && fabs(mean / (0.5 * (center + rim)) - 1) < 0.01);
+    }
+    close_shot(&s);
+}
+
 /* The mean over time and over a pixel of an ellipse that moves along the streak's path, times the streak's coverage. */
 static double moving_ellipse(const shot *s, const virga_streak_gpu *streak, uint32_t pixel)
 {
@@ -556,6 +586,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thin_streak_covers_its_disc_at_any_resolution),
         cmocka_unit_test(a_streak_out_of_focus_covers_as_much_over_more),
+        cmocka_unit_test(a_streak_has_the_same_mean_light_however_blurred),
         cmocka_unit_test(a_streak_out_of_focus_has_round_ends),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),

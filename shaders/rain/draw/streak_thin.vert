@@ -24,9 +24,7 @@ void main()
     gl_Position = streak.position;
     along_turns_depth =
         vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_phase(streak), 1.0 / streak.distance);
-    // The mean over the width: half of each colour if narrow, by u^2 if wide (see streak_wide.frag).
-    const float width_blend = clamp(streak.half_width - 0.75, 0.0, 1.0);
-    light_alpha = vec4(mix(streak.center, streak.rim, width_blend / 3.0 + (1.0 - width_blend) * 0.5), streak.alpha);
+    light_alpha = vec4(mix(streak.center, streak.rim, 0.5), streak.alpha); // the mean over the width, see streak_wide.frag
     shape = vec3(streak.half_width, streak_ends(streak.way_px, streak.body_px), streak.wave_size);
     middle_line = streak.middle_line;
     if (HAS_DEPTH)

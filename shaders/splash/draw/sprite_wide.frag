@@ -53,7 +53,7 @@ void main()
     const vec3 unlit = torn_light(environment(d, vec2(0.97, 0.90)), pile ? TORN_PILE : TORN_DROPLET);
     const vec3 lamps_in = max(center_alpha.rgb - unlit, vec3(0.0));
     const vec3 even = mix(center_alpha.rgb, around_of(d), 0.6);
-    const vec3 mean = mix(mix(center_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u), even, smeared);
+    const vec3 mean = mix(mix(center_alpha.rgb, rim_kind.rgb, (1.0 + 2.0 * u * u) / 3.0), even, smeared);
     const float show = clamp((2.0 * half_width - WIDE_PX) / WIDE_PX, 0.0, 1.0) * (1.0 - 0.85 * smeared);
     const vec3 light = mix(mean, through_ball(d, across) + lamps_in, show);
     radiance = for_target(vec4(light * alpha, alpha));
