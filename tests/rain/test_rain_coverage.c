@@ -143,6 +143,7 @@ static void a_streak_has_the_same_mean_light_however_blurred(void **state)
     const uint32_t id = streak_list(&s)[choose_streak(&s, &distance)].id;
     const double pixel = 2 / (fabs((double)s.camera.clip_from_view[5]) * 240);
     for (int blur = 1; blur <= 8; blur *= 2) {
+        s.wide = blur > 1; /* by the shader of thin streaks, and by that of wide ones */
         s.aperture_m = (float)(blur * pixel * distance);
         const float *pixels = draw_only(&s, id);
         const virga_streak_gpu *streak = &streak_list(&s)[s.only];
