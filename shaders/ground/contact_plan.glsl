@@ -50,9 +50,9 @@ float sheet_share(float deep_m, float speed)
 }
 
 // Speed v at which water leaves the patch of a foot. A plate of width B that sinks at a speed u into a depth h drives
-// out v = u B / (2 h); the gap below a sole is larger by its profile. The pressure is rho / 2 (v^2 - v(x)^2), where v(x)
-// grows from the middle to the edge, so its mean is rho v^2 / 3. While a foot comes down it carries a quarter of the
-// body, 200 N on 0.028 m^2 or 7.1 kPa: v is at most 4.6 m/s.
+// out v = u B / (2 h); the gap below a sole is larger by its profile. The pressure is rho / 2 (v^2 - v(x)^2), where
+// v(x) grows from the middle to the edge, so its mean is rho v^2 / 3. While a foot comes down it carries a quarter of
+// the body, 200 N on 0.028 m^2 or 7.1 kPa: v is at most 4.6 m/s. (The quarter and the profile are our estimates.)
 #define PROFILE_M 0.004
 float foot_speed(uint contact, float deep_m)
 {
@@ -61,11 +61,11 @@ float foot_speed(uint contact, float deep_m)
     return length(vec2(pressed, 0.5 * tick.contacts[contact].speed));
 }
 
-// Share of the water under a foot that rises as a sheet. The layer that runs out at v meets that beside it, at rest and as deep.
-// Where they meet, the water has nowhere to go but up (the kinematic discontinuity of Yarin and Weiss 1995, Impact of
-// drops on solid surfaces). Seen from there both come at the same speed c, as they have the same pressure (Bernoulli):
-// v - c = c, c = v / 2. Equal layers that meet leave at a right angle to both, with their speed: so the sheet rises at
-// v / 2 and goes out at v / 2.
+// Share of the water under a foot that rises as a sheet. The layer that runs out at v meets that beside it, at rest and
+// as deep. Where they meet, the water has nowhere to go but up (the kinematic discontinuity of Yarin and Weiss 1995,
+// Impact of drops on solid surfaces; quoted from memory, derived here). Seen from there both come at the same speed c,
+// as they have the same pressure (Bernoulli): v - c = c, c = v / 2. Equal layers that meet leave at a right angle to
+// both, with their speed: so the sheet rises at v / 2 and goes out at v / 2.
 //
 // Each half is a stream that runs against a wall. Water heaps up there to the depth behind a hydraulic jump, h2 / h =
 // (sqrt(1 + 8 F^2) - 1) / 2 with F^2 = c^2 / (g h) (Belanger), and runs away with it as a wave. What is thrown up at c

@@ -39,13 +39,20 @@ float sheet_nl_of(uint contact, Trod trod)
     return foot && nl >= LEAST_SHEET_NL ? nl : 0.0;
 }
 
-vec3 above_origin(uint contact, Trod trod)
+virga_floor_gpu floor_under(uint contact, Trod trod)
 {
     const vec2 at = out_of_contact(contact, trod.at);
     const ivec2 low = ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
     const uint cell_index = index_of_cell(ivec2(floor(at * tick.inv_cell_m)) + low);
-    const float floor_m = is_ground(cell_index) ? float(floor_of(cell_index).height_um) * 1e-6
-                                                : tick.contacts[contact].height_m;
+    if (is_ground(cell_index))
+        return floor_of(cell_index);
+    return virga_floor_gpu(int(tick.contacts[contact].height_m * 1e6), 0u);
+}
+
+vec3 above_origin(uint contact, Trod trod)
+{
+    const vec2 at = out_of_contact(contact, trod.at);
+    const float floor_m = float(floor_under(contact, trod).height_um) * 1e-6;
     precise vec3 window = vec3(tick.window_high[0], tick.base_m, tick.window_high[2]) -
                           vec3(spawns_head.origin[0], spawns_head.origin[1], spawns_head.origin[2]);
     precise vec3 result = window + vec3(tick.window_low[0], 0.0, tick.window_low[2]) + vec3(at.x, floor_m, at.y);
@@ -73,7 +80,8 @@ void write_sheet(uint contact, Trod trod, float sheet_nl, uint index)
     spawn.tick = tick.tick;
     spawn.water_nl = 0u;
     spawn.random = virga_hash4(tick.seed, tick.contacts[contact].id, tick.tick, 0x5ee7u);
-    spawn.kind = VIRGA_GROUND_PUDDLE_5 | VIRGA_SPLASH_CROWN_CONE << 16 | VIRGA_SPAWN_SHEET;
+    spawn.kind = VIRGA_GROUND_PUDDLE_5 | floor_under(contact, trod).material << 8 | VIRGA_SPLASH_CROWN_CONE << 16 |
+                 VIRGA_SPAWN_SHEET;
     spawns[index] = spawn;
 }
 
@@ -95,7 +103,7 @@ void start_sheets()
         index += i < contact ? wake_count[i] : 0u;
         all += wake_count[i];
     }
-    const bool mine = contact < uint(VIRGA_GROUND_CONTACTS) && wake_count[min(contact, uint(VIRGA_GROUND_CONTACTS) - 1u)] > 0u;
+    const bool mine = sheet_nl > 0.0 && tick.contact_droplets > 0u;
     if (mine && index < tick.max_spawns)
         write_sheet(contact, trod, sheet_nl, index);
     if (contact == 0u && all > 0u && tick.max_spawns > 0u) {

@@ -40,12 +40,12 @@ float diameter_of(float width_m, float speed, uint hash, uint water_nl)
 }
 
 // Drops of a foot's sheet. Its rim is as thick as b = sqrt(sigma / (rho a)), where a is its deceleration, here that of
-// gravity (Wang, Dandekar, Bustos, Poulain and Bourouiba 2018, Universal rim thickness in unsteady sheet
-// fragmentation): 2.7 mm. The fingers that grow from it are 0.6 as thick (crown_sheet.h), and break into drops 1.89
-// times as wide as they, of the volume of one wavelength (Rayleigh). Their sizes have the gamma law of fourth order
-// (Villermaux, Marmottant and Duplat 2004, Ligament-mediated spray formation), whose mean volume is that of a drop
+// gravity: 2.7 mm (Wang, Dandekar, Bustos, Poulain and Bourouiba 2018, Universal rim thickness in unsteady sheet
+// fragmentation). The fingers that grow from it are 0.6 as thick (crown_sheet.h), and break into drops 1.89 times as
+// wide as they, of the volume of one wavelength (Rayleigh). Their sizes have the gamma law of fourth order (Villermaux,
+// Marmottant and Duplat 2004, Ligament-mediated spray formation), whose mean volume is that of a drop
 // (5 x 6 / 4^2)^(1/3) = 1.233 times as wide as the mean: so this is 2.5 mm. A sum of four exponential numbers has that
-// law.
+// law. Both papers are quoted from memory.
 #define FOOT_MEAN_M 0.0025
 float foot_diameter(uint hash)
 {

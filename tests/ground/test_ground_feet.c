@@ -109,7 +109,8 @@ static double rising_share(double deep_m, double down_m_s)
 static void check_sheet(const virga_spawn_gpu *spawn, double sheet_nl, double speed, double heading)
 {
     const double volume = M_PI / 6 * pow((double)spawn->diameter_m, 3), up_s = speed / 9.81;
-    REQUIRE(spawn->kind == (VIRGA_GROUND_PUDDLE_5 | VIRGA_SPLASH_CROWN_CONE << 16 | VIRGA_SPAWN_SHEET));
+    REQUIRE(spawn->kind ==
+            (VIRGA_GROUND_PUDDLE_5 | VIRGA_MATERIAL_CUSTOM << 8 | VIRGA_SPLASH_CROWN_CONE << 16 | VIRGA_SPAWN_SHEET));
     REQUIRE(fabs((double)VIRGA_CROWN_DROPS * volume / (1e-12 * sheet_nl) - 1) < 0.002);
     REQUIRE(fabs((double)spawn->velocity[1] / -speed - 1) < 1e-3);
     REQUIRE(fabs((double)spawn->velocity[0] / (0.14 / up_s + speed) - 1) < 1e-3);

@@ -24,7 +24,8 @@ void main()
     gl_Position = streak.position;
     along_turns_depth =
         vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_phase(streak), 1.0 / streak.distance);
-    light_alpha = vec4(mix(streak.center, streak.rim, 0.5), streak.alpha); // the mean over the width, see streak_wide.frag
+    // The mean over the width, see streak_wide.frag.
+    light_alpha = vec4(mix(streak.center, streak.rim, 0.5), streak.alpha);
     shape = vec3(streak.half_width, streak_ends(streak.way_px, streak.body_px), streak.wave_size);
     middle_line = streak.middle_line;
     if (HAS_DEPTH)

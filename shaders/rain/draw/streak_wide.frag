@@ -64,8 +64,8 @@ void main()
         discard;
 
     const float width_blend = clamp(half_width - 0.75, 0.0, 1.0);
-    // All of a drop passes a pixel, along a chord: the mean of r^2 on it is u^2 + (1 - u^2) / 3. Weighted by the chords'
-    // lengths its mean over the drop is 1/2, which is what a streak has that is too narrow or too blurred to show more.
+    // All of a drop passes a pixel, along a chord: the mean of r^2 on it is u^2 + (1 - u^2) / 3. Weighted by chords its
+    // mean over the drop is 1/2, which is what a streak has that is too narrow or too blurred to show more.
     const float rim = mix(0.5, (1.0 + 2.0 * u * u) / 3.0, focus * width_blend);
     vec3 light = mix(center_alpha.rgb, rim_wave.rgb, rim);
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));

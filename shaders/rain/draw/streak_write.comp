@@ -132,12 +132,12 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
 {
     const vec3 d = normalize(middle);
     const vec3 glitter = lamps(middle, d);
-    // The light at a part r of the drop's radius goes from `center` to `rim` with r^2. Near the middle rays are deflected
-    // by up to 16 degrees, at the rim by 50 and more (Legendre moments: their cosines). The mean over the disc is half
-    // of each, with the moments 0.77 and 0.54. Those of the phase function are 0.77 and 0.62, but harmonics of degree 2
-    // undershoot before dark walls; of 60 streets at random, with sky above and houses beside, the light of drops before
-    // houses is then wrong by 30 % (root mean square) against the integral over the phase function, and with 0.54 by
-    // 22 % (tests/core/test_drop_light.c).
+    // The light at a part r of the drop's radius goes from `center` to `rim` with r^2. Near the middle rays are
+    // deflected by up to 16 degrees, at the rim by 50 and more (Legendre moments: their cosines). The mean over the
+    // disc is half of each, with the moments 0.77 and 0.54. Those of the phase function are 0.77 and 0.62, but
+    // harmonics of degree 2 undershoot before dark walls. Of 60 streets at random, with sky above and houses beside,
+    // the light of drops before houses is then wrong by 30 % (root mean square) against the integral over the phase
+    // function, and with 0.54 by 22 % (tests/core/test_drop_light.c).
     const vec3 center = environment(d, vec2(0.97, 0.90)) + glitter;
     const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
     streak.light = uint[3](halves(center.r, center.g), halves(center.b, rim.r), halves(rim.g, rim.b));

@@ -144,7 +144,8 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     const Crown crown = crown_at(splash, 0.5 * (view.time_close_s + view.time_open_s) - ago_s);
     const float age = max(splash_age(splash, view.time_close_s - ago_s), 0.0), t = age / splash.life_s;
     const bool of_foot = (splash.kind & VIRGA_SPLASH_OF_FOOT) != 0u;
-    const bool alone = crown.droplets == 0u && !of_foot && crown.model != VIRGA_SPLASH_DOT && crown.model != VIRGA_SPLASH_DISK;
+    const bool alone =
+        crown.droplets == 0u && !of_foot && crown.model != VIRGA_SPLASH_DOT && crown.model != VIRGA_SPLASH_DISK;
     const float spread = alone ? 0.04 * splash.speed_m_s * age : 0.0;
     const float across = 2.0 * (crown.radius + spread), up = max(crown.height + spread, 0.2 * across);
     float area = crown.model == VIRGA_SPLASH_DISK ? 0.3 * across * across : 2.0 * crown.radius * crown.height;
