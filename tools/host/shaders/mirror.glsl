@@ -80,7 +80,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     const float smooth_texels = MIRROR_SMOOTH_TEXELS * sqrt(frame.sampling.x);
     vec4 sum = vec4(0.0);
     float whole = 0.0, mirrored = 0.0;
-    for (int i = int(frame.sampling.y); i < MIRROR_TAPS; i += int(frame.sampling.z)) {
+    int i = int(frame.sampling.y);
+    do { // at least once; a condition at the beginning would cost software Vulkan one more
         const vec2 look = mirror_look(i);
         const float u = 1.0 - exp(-0.5 * dot(look, look));
         const vec2 s = slope + 0.70710678 * alpha * (look.x * across + look.y * along);
@@ -97,7 +98,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
             const vec3 color = textureLod(mirror_picture, at, level).rgb;
             sum += seen * f * near * trust * vec4(color, 1.0);
         }
-    }
+        i += int(frame.sampling.z);
+    } while (i < MIRROR_TAPS);
     fresnel = mirrored / max(whole, 1e-6);
     return sum / max(whole, 1e-6);
 }

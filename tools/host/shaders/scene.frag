@@ -109,53 +109,72 @@ const float CONTACT_OPEN = 0.93;   // where more of the sky is left, shadows of 
 
 float near_things = 0.0; // of this pixel: how far they keep lamps off it
 
-float lamp_power(int i)
-{
-    const vec3 intensity = frame.lights[i].intensity.rgb;
-    return max(max(intensity.r, intensity.g), intensity.b);
-}
-
-// What is left of a lamp's light, in direction l, on ground.
-float lamp_left(vec3 l)
+// What is left of a lamp's light, in direction l, on ground; 1 where it is not `looked` for. Software Vulkan runs what
+// stands under a condition for all pixels, but goes on in a loop only while one is in it: where nothing is looked for it
+// begins with the last look.
+float lamp_left(vec3 l, bool looked)
 {
     const float flat_l = length(l.xz), rise = l.y / max(flat_l, 1e-4);
     const vec2 along = l.xz / max(flat_l, 1e-4), at = in_relative.xz - frame.contact.xz;
     const float side = float(textureSize(contact_map, 0).x) * frame.contact.w, apart = 1.0 + 0.35 * frame.screen.z;
     float left = 1.0, before = 0.0; // height of the ray at the look before: it is between both
-    for (int i = 0; i < CONTACT_LOOKS; i++) {
+    int i = looked ? 0 : CONTACT_LOOKS - 1;
+    do {
         const float away = CONTACT_M[i] * apart, high = away * rise, soft = CONTACT_SOFT_M + CONTACT_SOFT * away;
         const vec2 things = texelFetch(contact_map, ivec2((at + along * away) * side), 0).zw;
         const vec2 inside = clamp(vec2(high - things.x, things.y - before) / soft + 0.5, 0.0, 1.0);
         left = min(left, 1.0 - inside.x * inside.y * (1.0 - smoothstep(0.8, 1.5, away)));
         before = high;
-    }
-    return left;
+    } while (++i < CONTACT_LOOKS);
+    return looked ? left : 1.0;
 }
 #endif
 
-vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
+// What light of lamps meets: a surface, and the water over it.
+struct Lobe {
+    vec3 n;
+    float n_v;
+    vec3 f0;
+    float roughness;
+};
+
+// What a surface, without its albedo, reflects of light from l on it.
+vec3 lobe_of(Lobe lobe, float n_l, vec3 v, vec3 l)
+{
+    return specular_lobe(lobe.f0, lobe.roughness, n_l, lobe.n_v, lobe.n, v, l);
+}
+
+// Light of lamps that comes back from a surface and from the water over it, whose shadows are the same. The loop ends
+// at its end: software Vulkan runs a body once more for a condition at its beginning.
+vec3 lit(vec3 albedo, Lobe ground, Lobe water, vec3 v, out vec3 on_water)
 {
     vec3 sum = vec3(0.0);
-    for (int lamps = int(surface.lamps.x); lamps != 0; lamps &= lamps - 1) {
-        int i = findLSB(lamps);
-        vec3 to = frame.lights[i].position.xyz - in_relative;
-        float distance2 = max(dot(to, to), 1e-4);
-        vec3 l = to * inversesqrt(distance2);
-        float n_l = dot(n, l);
-        float part = distance2 * frame.lights[i].position.w * frame.lights[i].position.w;
-        float window = max(1.0 - part * part, 0.0);
-        vec4 cone = frame.lights[i].cone;
-        float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);
-        float reach = window * window * spot * spot;
-        if (n_l > 0.0 && reach > 0.0) {
-            vec3 brdf = albedo / PI + specular_lobe(f0, roughness, n_l, n_v, n, v, l);
+    int lamps = int(surface.lamps.x);
+    on_water = vec3(0.0);
+    if (lamps == 0)
+        return sum;
+    do {
+        const int i = findLSB(lamps);
+        lamps &= lamps - 1;
+        const vec3 to = frame.lights[i].position.xyz - in_relative;
+        const float distance2 = max(dot(to, to), 1e-4);
+        const vec3 l = to * inversesqrt(distance2);
+        const float part = distance2 * frame.lights[i].position.w * frame.lights[i].position.w;
+        const float window = max(1.0 - part * part, 0.0);
+        const vec4 cone = frame.lights[i].cone;
+        const float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);
+        const float n_l = max(dot(ground.n, l), 0.0);
+        vec3 light = frame.lights[i].intensity.rgb * (window * window * spot * spot / distance2);
 #ifdef WET
-            if (near_things > 0.0 && n_l * reach * lamp_power(i) > CONTACT_LEAST * distance2)
-                reach *= mix(1.0, lamp_left(l), near_things);
+        const float water_l = max(dot(water.n, l), 0.0), most = max(max(light.r, light.g), light.b);
+        const bool looked = near_things > 0.0 && max(n_l, water_l) * most > CONTACT_LEAST;
+        light *= mix(1.0, lamp_left(l, looked), near_things);
+        if (water_l > 0.0)
+            on_water += light * lobe_of(water, water_l, v, l) * water_l;
 #endif
-            sum += frame.lights[i].intensity.rgb * brdf * (n_l * reach / distance2);
-        }
-    }
+        if (n_l > 0.0)
+            sum += light * (albedo / PI + lobe_of(ground, n_l, v, l)) * n_l;
+    } while (lamps != 0);
     return sum;
 }
 
@@ -173,18 +192,23 @@ float contact_shade(vec3 n)
     return mix(1.0, found.x, same);
 }
 
-// A level mirror of water over a colour: of the scene where that is known, else of the sky that is left.
-vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
+Lobe lobe_of_water(Water water, vec3 v)
 {
-    const vec3 up = water.normal, f0 = vec3(0.0204);
-    float n_v = clamp(dot(up, v), 1e-3, 1.0);
+    return Lobe(water.normal, clamp(dot(water.normal, v), 1e-3, 1.0), vec3(0.0204), max(water.roughness, 0.08));
+}
+
+// A level mirror of water over a colour: of the scene where that is known, else of the sky that is left. `lamps`: light
+// of lamps that it mirrors.
+vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water, vec3 lamps)
+{
+    const vec3 up = water.normal;
     vec3 r = reflect(-v, up);
     r.y = abs(r.y);
     float fresnel;
     vec4 scene = mirror_light(in_relative, v, up, water.roughness, fresnel);
     vec3 sky = reflected_light(r, water.roughness) * sky_share(moments, r);
     vec3 mirror = scene.rgb + (fresnel - scene.a) * sky;
-    return color * (1.0 - fresnel) + mirror + lit(vec3(0.0), f0, max(water.roughness, 0.08), up, v, n_v);
+    return color * (1.0 - fresnel) + mirror + lamps;
 }
 #endif
 
@@ -215,8 +239,11 @@ void main()
     float roughness = surface.emissive.w;
     wet_material(water, 0.0, albedo, roughness, f0);
     const vec4 moments = sky_moments(n);
-    const vec3 mirrored = under_water(vec3(0.0), v, moments, water);
-    const vec3 seen = under_water(vec3(1.0), v, moments, water) - mirrored;
+    const Lobe lobe = lobe_of_water(water, v);
+    vec3 lamps;
+    lit(vec3(0.0), lobe, lobe, v, lamps);
+    const vec3 mirrored = under_water(vec3(0.0), v, moments, water, lamps);
+    const vec3 seen = under_water(vec3(1.0), v, moments, water, lamps) - mirrored;
     const float through = albedo.g / dry * mix(1.0, seen.g, water.puddle);
     write(road * water.puddle * mirrored, road * (1.0 - through), n, vec3(0.0),
           vec2(max(water.damp, water.film), water.depth_mm * 1e-3));
@@ -272,10 +299,17 @@ void main()
     roughness = mix(roughness, 1.0, water.puddle);
 #endif
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
-    vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
+    const Lobe ground = Lobe(n, n_v, f0, roughness);
+    vec3 on_water;
+#ifdef WET
+    const Lobe over = lobe_of_water(water, v);
+#else
+    const Lobe over = ground;
+#endif
+    vec3 color = diffuse + reflected + lit(albedo, ground, over, v, on_water) + emissive;
 #ifdef WET
     if (water.puddle > 0.0)
-        color = mix(color, under_water(color, v, moments, water), water.puddle);
+        color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
 #endif
     float alpha = 1.0;
     if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it

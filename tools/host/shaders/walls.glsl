@@ -60,8 +60,10 @@ bool shelter_met(vec2 at, float height_m, vec2 apart, float above_m)
     return shelter_above(at + above_m * apart, height_m) > max(SHELTER_CLEAR_M, 0.3 * above_m);
 }
 
-// Share of the rain that reaches a surface. `near_m`: how far above it is the nearest thing that shelters it.
-float shelter_open(vec3 relative, vec3 n, out float near_m)
+// Share of the rain that reaches a surface; 1 where it is not `asked` for. `near_m`: how far above it is the nearest
+// thing that shelters it. Software Vulkan runs what stands under a condition for all pixels, but goes on in a loop only
+// while one is in it: where nothing is looked for it begins with the last look.
+float shelter_open(vec3 relative, vec3 n, bool asked, out float near_m)
 {
     const vec2 mean = frame.shelter_slant.xy;
     const float spread = frame.shelter_slant.z, side_m = 1.0 / frame.shelter_slant.w;
@@ -70,12 +72,12 @@ float shelter_open(vec3 relative, vec3 n, out float near_m)
     const vec2 at = point.xz + mean * point.y + frame.shelter_low.xz, inside = min(at, side_m - at);
     const float known = smoothstep(0.5, 4.0, min(inside.x, inside.y));
     near_m = 1e9;
-    if (known <= 0.0)
-        return 1.0;
+    const bool looked = asked && known > 0.0;
     // On the line of the mean, and on four around it, where these are at the height that is guessed. Two things may
     // shelter a place: the sill above it, and the eaves.
     float found = 0.0, sum_m = 0.0;
-    for (int i = 0; i < 5; i++) {
+    int i = looked ? 0 : 4;
+    do {
         const vec2 off = i == 0 ? vec2(0.0) : vec2(i < 3 ? 1.2 : -1.2, (i & 1) == 0 ? 1.2 : -1.2);
         const vec2 apart = mean - virga_wall_slant(mean, spread, off, n);
         const float above = shelter_above(at + SHELTER_GUESS_M * apart, point.y);
@@ -83,19 +85,20 @@ float shelter_open(vec3 relative, vec3 n, out float near_m)
         near_m = is ? min(near_m, above) : near_m;
         found += float(is);
         sum_m += is ? above : 0.0;
-    }
-    if (found == 0.0)
-        return 1.0;
-    const float far_m = sum_m / found;
+    } while (++i < 5);
+    const bool sheltered = looked && found > 0.0;
+    const float far_m = sum_m / max(found, 1.0);
     float blocked = 0.0;
-    for (int i = 0; i < SHELTER_LOOKS; i++) {
+    i = sheltered ? 0 : SHELTER_LOOKS - 1;
+    do {
         const vec2 apart = mean - virga_wall_slant(mean, spread, SHELTER_AT[i], n);
         bool met = shelter_met(at, point.y, apart, near_m);
         if (far_m > 1.5 * near_m && !met)
             met = shelter_met(at, point.y, apart, far_m);
         blocked += float(met);
-    }
-    return 1.0 - known * blocked / float(SHELTER_LOOKS);
+    } while (++i < SHELTER_LOOKS);
+    near_m = looked ? near_m : 1e9;
+    return sheltered ? 1.0 - known * blocked / float(SHELTER_LOOKS) : 1.0;
 }
 
 // Water that gathers on a ledge comes down in streaks: share of a place, `u` along the wall and so far below the ledge,
@@ -162,7 +165,7 @@ Wall wall_at(vec3 relative, vec3 n, int material, bool ground)
     const vec2 place = vec2(n.z * world.x - n.x * world.z + 17.0 * n.x, world.y);
     if (row.x > 0.01) {
         float near_m;
-        const float open = shelter_open(relative, n, near_m);
+        const float open = shelter_open(relative, n, row.x > 0.01 && share > 0.0, near_m);
         // What is soaked in the open has had enough where a part of the rain arrives.
         const float enough = mix(0.9, 0.45, smoothstep(0.0, 0.06, row.y)), part = open * (1.0 - open);
         const float uneven = part > 0.0 ? 1.8 * (wall_grain(place) - 0.5) * part : 0.0;
