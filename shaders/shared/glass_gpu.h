@@ -33,6 +33,8 @@ typedef struct virga_glass_breath_gpu virga_glass_breath_gpu;
 #define VIRGA_GLASS_SITE_SPAN        4  /* sites along the side of the largest area whose film becomes one drop */
 #define VIRGA_GLASS_FOG_TURNS        16 /* ticks in which all blocks of cells have their turn to fog and to dry */
 #define VIRGA_GLASS_FOG_SITE         4  /* cells along the side of a square in which one drop at a time forms of fog */
+#define VIRGA_GLASS_WETTED           0x0fffffffu /* bits of the word of a wetted cell: the tick */
+#define VIRGA_GLASS_LINK_BIT         28 /* bits above: 5 + x + 3 y, the way of the drop that left its film; 0: none */
 #define VIRGA_GLASS_HEAT_WAVES       13 /* of the heater's field: its mean and twelve cosines */
 #define VIRGA_GLASS_BREATHS          16 /* equal to VIRGA_GLASS_MAX_BREATHS */
 

@@ -333,6 +333,59 @@ static void a_film_ends_on_the_glass_beside_drops(void **state)
     shot_close(&s);
 }
 
+#define THREAD_CELLS 16
+
+/* A cell of a drop's way: ten rows straight down, then aslant. */
+static uint32_t thread_cell(const shot *s, int i)
+{
+    const uint32_t column = 20 + (uint32_t)(i > 10 ? i - 10 : 0), row = 26 - (uint32_t)i;
+    return column + row * s->glass->columns;
+}
+
+/* The film of a drop on its way, so many ticks old. Draws it. Returns its water as the map has it, nl, and the least
+ * density along the way. */
+static double draw_thread(shot *s, uint32_t nl, uint32_t age, double *least)
+{
+    for (int i = 0; i < THREAD_CELLS; i++) {
+        const uint32_t aslant = i >= 10, link = 5 + aslant - 3; /* down, or down and to the right */
+        s->film[thread_cell(s, i)] = nl;
+        s->passed[thread_cell(s, i)] = (s->glass->last_tick - age) | link << VIRGA_GLASS_LINK_BIT;
+    }
+    shot_draw(s, false);
+    const double texel_m = 0.096 / s->columns;
+    double water = 0;
+    for (uint32_t i = 0; i < s->columns * s->rows; i++)
+        water += s->map[4 * i] >= 0.5f ? fmax((double)s->map[4 * i + 1], 0) * texel_m * texel_m * 1e12 : 0;
+    *least = 1e9;
+    for (int i = 1; i + 1 < THREAD_CELLS; i++) /* it begins after the middle of the first cell */
+        for (int k = 0; k < 8; k++) {
+            const uint32_t from = thread_cell(s, i), to = thread_cell(s, i + 1), columns = s->glass->columns;
+            const double share = k / 8.0, x = from % columns * (1 - share) + to % columns * share + 0.5,
+                         y = from / columns * (1 - share) + to / columns * share + 0.5;
+            const float *at = texel(s, (uint32_t)(x * 0.002 / texel_m), (uint32_t)(y * 0.002 / texel_m));
+            *least = fmin(*least, (double)at[0]);
+        }
+    return water;
+}
+
+/* What a running drop leaves is in one piece, with the water of its cells; it breaks where it is. */
+static void a_drops_film_is_a_thread_until_it_breaks(void **state)
+{
+    (void)state;
+    shot s;
+    double whole, broken;
+    open_small(&s);
+    shot_draw(&s, false);
+    for (uint32_t i = 0; i < 200; i++)
+        s.glass->last_tick++; /* so that the film can be old */
+    const double water = draw_thread(&s, 600, 0, &whole), later = draw_thread(&s, 600, 150, &broken);
+    print_message("of %d nl the thread shows %.0f, its beads %.0f; least density %.2f, then %.2f\n", 600 * THREAD_CELLS,
+                  water, later, whole, broken);
+    assert_true(whole > 0.5 && broken < 0.5);
+    assert_float_equal(water, 600 * THREAD_CELLS, 0.1 * 600 * THREAD_CELLS);
+    shot_close(&s);
+}
+
 /* ---- passes */
 
 /* Gather passes of a pane, all or those that are built. */
@@ -384,6 +437,7 @@ int main(void)
         cmocka_unit_test(merged_drops_have_no_crease),
         cmocka_unit_test(fine_film_covers_what_its_beads_do),
         cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
+        cmocka_unit_test(a_drops_film_is_a_thread_until_it_breaks),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(what_no_view_has_written_is_zero),
         cmocka_unit_test(a_view_builds_the_gathers_that_it_needs),

@@ -6,7 +6,8 @@ float sheet_m(ivec2 cell)
 {
     const ivec2 last = ivec2(look.pane.columns, look.pane.rows) - 1, clamped = clamp(cell, ivec2(0), last);
     const uint number = uint(clamped.x) + uint(clamped.y) * look.pane.columns;
-    const float nl = float(film[number]) * film_fresh(passed[number]);
+    const uint water = film[number], wetted = passed[number];
+    const float nl = float(water) * film_fresh(wetted) * (WITH_BEADS ? 1.0 - thread_share(water, wetted) : 1.0);
     return cell == clamped ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
 
@@ -60,6 +61,20 @@ float sheet_at(vec2 point)
     return mix(mix(four.x, four.y, t.x), mix(four.z, four.w, t.x), t.y);
 }
 
+// Loads the balls of a cell's thread. They get thinner as it breaks.
+void load_thread(ivec2 cell, uint water, vec2 link, float fresh)
+{
+    float radius;
+    const uint count = thread_balls(water, link, radius);
+    const float left = radius * pow(fresh, 1.0 / 3.0);
+    if (bead_shapes(vec2(left)).x <= 0.0)
+        return;
+    for (uint k = 0u; k < count; k++) {
+        const vec2 at = vec2(cell) + 0.5 + link * ((float(k) + 0.5) / float(count));
+        beads[atomicAdd(bead_count, 1u)] = vec3(at * look.pane.cell_m, left);
+    }
+}
+
 // Loads the beads with a shape, of the tile's cells and of those beside it.
 void load_beads(ivec2 tile)
 {
@@ -71,11 +86,13 @@ void load_beads(ivec2 tile)
         if (any(lessThan(cell, ivec2(0))) || any(greaterThanEqual(cell, size)))
             continue;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
-        const float broken_nl = float(film[number]) * (1.0 - film_fresh(passed[number]));
-        const vec2 shapes = bead_shapes(bead_radii(number, broken_nl));
+        const uint water = film[number], wetted = passed[number];
+        const float fresh = film_fresh(wetted), broken_nl = float(water) * (1.0 - fresh);
+        const vec2 link = film_link(wetted), shapes = bead_shapes(bead_radii(number, broken_nl));
         for (uint k = 0u; k < BEADS; k++)
             if (shapes[k] > 0.0)
-                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, k, broken_nl);
+                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, link, k, broken_nl);
+        load_thread(cell, water, link, fresh);
     }
 }
 

@@ -27,6 +27,6 @@ void main()
     transfer_water(drop.absorbed_by, drop);
     clear_slot(slot);
     occupants[drop.cell] = 0u;
-    passed[drop.cell] = tick.tick;
+    passed[drop.cell] = wetted_now();
     count(VIRGA_GLASS_MERGED, 1u);
 }

@@ -20,8 +20,10 @@ void leave_trail(uint slot, uint entry, uint cell, inout virga_glass_drop_gpu dr
     const uint left = min(round_randomly(thick * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)),
                           drop.water_nl / 8u);
     if (left != 0u) {
+        const ivec2 step_there = cell_coordinates(drop.cell) - cell_coordinates(cell);
         film[cell] += left;
         mark_film(cell);
+        passed[cell] = wetted_now() | uint(5 + step_there.x + 3 * step_there.y) << VIRGA_GLASS_LINK_BIT;
     }
     drop.water_nl -= left;
     drop.tail_spacing_m += tick.pane.cell_m;

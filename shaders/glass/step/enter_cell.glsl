@@ -10,8 +10,8 @@ void enter_cell(uint entry)
     const uint target = drops[slot].target;
     if (target >= OUTSIDE || (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP)
         return;
-    passed[drops[slot].cell] = tick.tick; // several invocations may write the same value
-    passed[target] = tick.tick;
+    passed[drops[slot].cell] = wetted_now(); // several invocations may write the same value
+    passed[target] = wetted_now();
     const uint occupant = occupants[target];
     const bool occupied = occupant != 0u && drops[occupant - 1u].target == NONE;
     const uint first = claims[claim_of(target, round_index)];

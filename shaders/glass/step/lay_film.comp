@@ -25,6 +25,6 @@ void main()
         return;
     film[cell] = here + given;
     mark_film(cell);
-    passed[cell] = tick.tick;
+    passed[cell] = wetted_now();
     atomicAdd(state.given_nl[bin], given);
 }

@@ -18,7 +18,7 @@ layout(scalar, set = 0, binding = 5) EXCHANGED buffer Claims { uint claims[]; };
 // Slot + 1; 0: no drop. Behind these is what flood.glsl describes.
 layout(scalar, set = 0, binding = 6) EXCHANGED buffer Occupants { uint occupants[]; };
 layout(scalar, set = 0, binding = 7) EXCHANGED buffer Film { uint film[]; }; // nl; behind these what fog.glsl describes
-// The tick in which a drop last ran over a cell; 0: never.
+// The tick in which a cell was last wetted, and where the drop went that left its film. 0: never.
 layout(scalar, set = 0, binding = 8) EXCHANGED buffer Passed { uint passed[]; };
 layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]; };
 layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; };
@@ -76,11 +76,13 @@ vec3 cell_normal(uint packed_cell)
     return vec3(n, sqrt(max(1.0 - dot(n, n), 0.01)));
 }
 
+uint wetted_now() { return tick.tick & VIRGA_GLASS_WETTED; }
+
 // How wet the path over a cell still is: 1 just after a drop ran over it.
 float cell_wet(uint cell)
 {
-    const uint last = passed[cell];
-    return last == 0u ? 0.0 : exp(-float(tick.tick - last) * tick.tick_s / tick.path_dry_s);
+    const uint last = passed[cell], ticks = (tick.tick - last) & VIRGA_GLASS_WETTED;
+    return last == 0u ? 0.0 : exp(-float(ticks) * tick.tick_s / tick.path_dry_s);
 }
 
 // The same for a cell that may be beyond the pane: 0 there.

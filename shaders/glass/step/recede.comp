@@ -39,7 +39,7 @@ uint stand_or_recede(uint cell, uint word)
         return 0u;
     film[cell] += water;
     mark_film(cell);
-    passed[cell] = tick.tick;
+    passed[cell] = wetted_now();
     atomicAdd(left, water);
     return VIRGA_GLASS_BREAKS << VIRGA_GLASS_PHASE | (tick.tick & ((1u << VIRGA_GLASS_PHASE) - 1u));
 }

@@ -39,7 +39,7 @@ void add_to_film(vec2 at, uint water)
     const ivec2 cell = clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1);
     atomicAdd(film[cell_number(cell)], water);
     mark_film(cell_number(cell));
-    passed[cell_number(cell)] = tick.tick;
+    passed[cell_number(cell)] = wetted_now();
     count(VIRGA_GLASS_WITHOUT_SLOT, 1u);
 }
 

@@ -21,7 +21,7 @@ void main()
     if (here == 0u)
         return;
     film[cell] = min(here, left);
-    passed[cell] = tick.tick;
+    passed[cell] = wetted_now();
     if (here > left)
         atomicAdd(state.bins_nl[bin], here - left);
 }
