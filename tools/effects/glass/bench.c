@@ -42,7 +42,7 @@ static const struct row {
 } rows[] = {{3000, 1024, 1, true, false},
             {3000, 1024, 1, false, false},
             {10000, 1024, 1, false, false},
-            {100000, 2048, 2, false, false}},
+            {100000, 2560, 2.5f, false, false}},
   fog_rows[] = {{3000, 1024, 1, false, false}, {3000, 1024, 1, false, true}};
 
 typedef struct pane {
