@@ -4,11 +4,12 @@
 usage: assets/measure_drops.py PICTURE...    each gives one row. Pictures are scaled to 240 rows first, as small
                                              photographs and large renders have other details.
 
-A drop is what differs from the mean of a window around it, which is what is behind the glass and out of focus. Its
+A drop is what differs from the mean of a window around it, which is what is behind the glass, out of focus. Its
 dark rim and its light parts are one drop where they touch. All levels are display codes from 0 to 255.
 
 Printed for each picture: drops for an area as large as the picture's height squared; the share of the picture that they
-cover; the diameter of a disc of a drop's area, in hundredths of the picture's height (median, and what a tenth exceeds);
+cover; the diameter of a disc of a drop's area, in hundredths of the picture's height (median, and what a tenth
+exceeds);
 how many times longer than wide they are (median, and what a tenth exceeds); contrast, the deviation of a drop from what
 is around it (median, and what a tenth exceeds); and in how many of those that are 5 pixels high or more the lower half
 is the lighter one. Needs ffmpeg, which reads the pictures.
@@ -91,7 +92,7 @@ def main():
         width, rows = load(path)
         found, below = measure(rows)
         if not found:
-            sys.exit("measure_drops.py: %s: has nothing that differs by %d codes from what is around it" % (path, APART))
+            sys.exit("measure_drops.py: %s: nothing differs by %d codes from what is around it" % (path, APART))
         diameter, slender, contrast, area = zip(*found)
         pairs = [(measure_streaks.part(v, 0.5), measure_streaks.part(v, 0.9)) for v in
                  ([100 * d / ROWS for d in diameter], slender, contrast)]

@@ -31,8 +31,8 @@ struct virga_spawn_gpu {
 };
 
 /* Not a drop's splash but the sheet that a foot throws up, an oval crown on level water. Then normal is the level
- * direction of its long axis. Velocity is x: half of the long axis when it is highest, over the time until then; y: minus
- * the speed at which it rises; z: as x, of the short axis. A ball of diameter_m has a sixth of its water
+ * direction of its long axis. Velocity is x: half of the long axis when it is highest, over the time until then; y:
+ * minus the speed at which it rises; z: as x, of the short axis. A ball of diameter_m has a sixth of its water
  * (crown_sheet.h), and water_nl is 0: its drops are handed over (handed_droplet.h). */
 #define VIRGA_SPAWN_SHEET 0x20000000u
 

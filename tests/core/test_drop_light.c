@@ -1,5 +1,6 @@
-/* test_drop_light.c - the light of drops before houses: from harmonics of degree 2, as shaders/rain/draw/streak_write.comp
- * takes it, against the integral of all that surrounds them over the phase function.
+/* test_drop_light.c - the light of drops before houses: from harmonics of degree 2, as
+ * shaders/rain/draw/streak_write.comp takes it, against the integral of all that is
+ * around them over the phase function.
  *
  * Streets at random: sky where no house hides it, dark houses on both sides and at both ends, each as high as a random
  * slope says, and dark ground. Each is seen in 24 nearly level directions. */

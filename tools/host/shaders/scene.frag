@@ -110,8 +110,8 @@ const float CONTACT_OPEN = 0.93;   // where more of the sky is left, shadows of 
 float near_things = 0.0; // of this pixel: how far they keep lamps off it
 
 // What is left of a lamp's light, in direction l, on ground; 1 where it is not `looked` for. Software Vulkan runs what
-// stands under a condition for all pixels, but goes on in a loop only while one is in it: where nothing is looked for it
-// begins with the last look.
+// stands under a condition for all pixels, but goes on in a loop only while one is in it: where nothing is looked for
+// it begins with the last look.
 float lamp_left(vec3 l, bool looked)
 {
     const float flat_l = length(l.xz), rise = l.y / max(flat_l, 1e-4);
@@ -251,26 +251,34 @@ void main()
         discard;
 }
 #else
+vec4 base_color(int bits)
+{
+    return surface.base_color * ((bits & HOST_HAS_BASE_TEXTURE) != 0 ? texture(base_texture, in_uv) : vec4(1.0));
+}
+
+vec3 emitted_light(int bits)
+{
+    return surface.emissive.rgb *
+           ((bits & HOST_HAS_EMISSIVE_TEXTURE) != 0 ? texture(emissive_texture, in_uv).rgb : vec3(1.0));
+}
+
+// The triangle's own normal turns the smooth one to the side that is seen, whichever way a file winds it.
+vec3 seen_normal(vec3 v)
+{
+    const vec3 flat_normal = cross(dFdx(in_relative), dFdy(in_relative)), n = normalize(in_normal);
+    return dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
+}
+
 void main()
 {
-    vec4 base = surface.base_color;
     int bits = int(surface.traits.w);
-    if ((bits & HOST_HAS_BASE_TEXTURE) != 0)
-        base *= texture(base_texture, in_uv);
-    vec3 emissive = surface.emissive.rgb;
-    if ((bits & HOST_HAS_EMISSIVE_TEXTURE) != 0)
-        emissive *= texture(emissive_texture, in_uv).rgb;
-
-    // The triangle's own normal turns the smooth one to the side that is seen, whichever way a file winds it.
+    vec4 base = base_color(bits);
     vec3 eye = vec3(0.0);
 #ifdef MIRROR
     eye.y = 2.0 * frame.mirror.x;
 #endif
     vec3 v = normalize(eye - in_relative);
-    vec3 flat_normal = cross(dFdx(in_relative), dFdy(in_relative));
-    vec3 n = normalize(in_normal);
-    n = dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
-
+    vec3 n = seen_normal(v);
     float roughness = surface.emissive.w, metallic = surface.traits.x;
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
@@ -306,7 +314,7 @@ void main()
 #else
     const Lobe over = ground;
 #endif
-    vec3 color = diffuse + reflected + lit(albedo, ground, over, v, on_water) + emissive;
+    vec3 color = diffuse + reflected + lit(albedo, ground, over, v, on_water) + emitted_light(bits);
 #ifdef WET
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
