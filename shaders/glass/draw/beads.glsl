@@ -56,7 +56,9 @@ vec2 bead_shapes(vec2 radii)
 // the balls of a row join, the height map has more than their water: they are smaller by that.
 
 #define THREAD_BALLS 6u   // max of a cell
-#define THREAD_TEXELS 3.0 // cells with fewer texels along a side have none
+// Cells with fewer texels along a side have none. So a tile lies on or beside 6 x 6 cells with threads at most, whose 6
+// balls and 2 beads each fit the array of height.glsl.
+#define THREAD_TEXELS 3.0
 #define APART 1.9
 #define JOINED 1.17 // water of a row on the map over that of its balls; test_glass_map.c measures it
 
