@@ -342,6 +342,14 @@ static uint32_t thread_cell(const shot *s, int i)
     return column + row * s->glass->columns;
 }
 
+/* Where in a cell the water lies that a drop left, in cells; see shaders/glass/draw/beads.glsl. */
+static void way_through(const shot *s, uint32_t number, double out[2])
+{
+    const double x = number % s->glass->columns, y = number / s->glass->columns;
+    out[0] = x + 0.5 + 0.27 * sin(0.71 * x + 0.61 * y) + 0.11 * sin(1.63 * y - 1.13 * x);
+    out[1] = y + 0.5 + 0.27 * sin(0.67 * x - 0.57 * y) + 0.11 * sin(1.27 * x + 1.51 * y);
+}
+
 /* The film of a drop on its way, so many ticks old. Draws it. Returns its water as the map has it, nl, and the least
  * density along the way. */
 static double draw_thread(shot *s, uint32_t nl, uint32_t age, double *least)
@@ -359,9 +367,11 @@ static double draw_thread(shot *s, uint32_t nl, uint32_t age, double *least)
     *least = 1e9;
     for (int i = 1; i + 1 < THREAD_CELLS; i++) /* it begins after the middle of the first cell */
         for (int k = 0; k < 8; k++) {
-            const uint32_t from = thread_cell(s, i), to = thread_cell(s, i + 1), columns = s->glass->columns;
-            const double share = k / 8.0, x = from % columns * (1 - share) + to % columns * share + 0.5,
-                         y = from / columns * (1 - share) + to / columns * share + 0.5;
+            const double share = k / 8.0;
+            double from[2], to[2];
+            way_through(s, thread_cell(s, i), from);
+            way_through(s, thread_cell(s, i + 1), to);
+            const double x = from[0] + share * (to[0] - from[0]), y = from[1] + share * (to[1] - from[1]);
             const float *at = texel(s, (uint32_t)(x * 0.002 / texel_m), (uint32_t)(y * 0.002 / texel_m));
             *least = fmin(*least, (double)at[0]);
         }

@@ -23,6 +23,21 @@ vec2 film_link(uint wetted)
     return link < 0 ? vec2(0.0) : vec2(link % 3, link / 3) - 1.0;
 }
 
+// Where in a cell (in cells) the water lies that a drop left: drops do not run through the middles of cells, in lines as
+// by a ruler. From cell to cell it changes smoothly, in waves of about 10 and 4 cells, that are not the same beside.
+vec2 way_through(vec2 cell)
+{
+    const vec2 slow = vec2(0.71 * cell.x + 0.61 * cell.y, 0.67 * cell.x - 0.57 * cell.y);
+    const vec2 fast = vec2(1.63 * cell.y - 1.13 * cell.x, 1.27 * cell.x + 1.51 * cell.y);
+    return 0.5 + 0.27 * sin(slow) + 0.11 * sin(fast);
+}
+
+// A place on the way, from 0 at its begin to 1 where the next cell's begins (in cells of the pane).
+vec2 on_way(vec2 cell, vec2 link, float part)
+{
+    return mix(cell + way_through(cell), cell + link + way_through(cell + link), part);
+}
+
 // Radii of a cell's beads, whose water is `broken_nl`; 0: no such bead.
 vec2 bead_radii(uint number, float broken_nl)
 {
@@ -31,13 +46,15 @@ vec2 bead_radii(uint number, float broken_nl)
     return min(radii, vec2(VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m));
 }
 
-// Position of bead i of a cell, and in z its radius. What a drop left breaks where it lies, on the way of that drop.
+// Position of bead i of a cell, and in z its radius. What a drop left breaks where it lies, on the way of that drop or a
+// little beside it.
 vec3 bead_of(ivec2 cell, uint number, vec2 link, uint i, float broken_nl)
 {
     const uint random = bead_random(number);
     const vec2 at = vec2(virga_unit(virga_hash2(random, 2u * i)), virga_unit(virga_hash2(random, 2u * i + 1u)));
-    return vec3((vec2(cell) + (link == vec2(0.0) ? at : 0.5 + at.x * link)) * look.pane.cell_m,
-                bead_radii(number, broken_nl)[i]);
+    const vec2 beside = 0.3 * (at.y - 0.5) * vec2(link.y, -link.x);
+    const vec2 place = link == vec2(0.0) ? vec2(cell) + at : on_way(vec2(cell), link, at.x) + beside;
+    return vec3(place * look.pane.cell_m, bead_radii(number, broken_nl)[i]);
 }
 
 // The part of each bead that is shape; the rest is mist. A single bead shows as a shape from one half on, where its

@@ -70,7 +70,7 @@ void load_thread(ivec2 cell, uint water, vec2 link, float fresh)
     if (bead_shapes(vec2(left)).x <= 0.0)
         return;
     for (uint k = 0u; k < count; k++) {
-        const vec2 at = vec2(cell) + 0.5 + link * ((float(k) + 0.5) / float(count));
+        const vec2 at = on_way(vec2(cell), link, (float(k) + 0.5) / float(count));
         beads[atomicAdd(bead_count, 1u)] = vec3(at * look.pane.cell_m, left);
     }
 }
