@@ -23,8 +23,8 @@ vec2 film_link(uint wetted)
     return link < 0 ? vec2(0.0) : vec2(link % 3, link / 3) - 1.0;
 }
 
-// Where in a cell (in cells) the water lies that a drop left: drops do not run through the middles of cells, in lines as
-// by a ruler. From cell to cell it changes smoothly, in waves of about 10 and 4 cells, that are not the same beside.
+// Where in a cell (in cells) the water lies that a drop left: drops do not run through the middles of cells, in lines
+// as by a ruler. From cell to cell it changes smoothly, in waves of about 10 and 4 cells, not the same beside.
 vec2 way_through(vec2 cell)
 {
     const vec2 slow = vec2(0.71 * cell.x + 0.61 * cell.y, 0.67 * cell.x - 0.57 * cell.y);
@@ -46,8 +46,8 @@ vec2 bead_radii(uint number, float broken_nl)
     return min(radii, vec2(VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m));
 }
 
-// Position of bead i of a cell, and in z its radius. What a drop left breaks where it lies, on the way of that drop or a
-// little beside it.
+// Position of bead i of a cell, and in z its radius. What a drop left breaks where it lies, on the way of that drop or
+// a little beside it.
 vec3 bead_of(ivec2 cell, uint number, vec2 link, uint i, float broken_nl)
 {
     const uint random = bead_random(number);
