@@ -1,59 +1,23 @@
 /* Feet: what of the water under a sole rises as a sheet, and which drops fly off it. */
-#include "ground_fixture.h"
+#include "droplet_list.h"
 
 #include "shared/crown_sheet.h"
 
 #include <math.h>
 
-enum { SIDE = 128, CELLS = SIDE * SIDE, MAX_LISTED = 8192 };
+#define WIDTH 0.1
 
-#define CELL_M 0.05
-#define FILM   50.0 /* um that stay */
-#define NL_UM  2500.0
-#define WIDTH  0.1
-
-static ground_fixture f;
-static host_buffer list;
-
-static virga_handed_droplets_gpu *head(void)
-{
-    return list.mapped;
-}
-
-static const virga_handed_droplet_gpu *droplets(void)
-{
-    return (const virga_handed_droplet_gpu *)(head() + 1);
-}
-
-/* Level ground where nothing flows in the first 15 ticks. */
 static void begin(void)
 {
-    virga_ground_def def = virga_default_ground_def();
-    def.cells = SIDE;
-    def.far_cells = 0;
-    def.cached_tiles = 0;
-    def.max_impacts = MAX_DROPS;
-    def.max_spawns = 1024;
-    def.flow_ticks = 60;
-    ground_fixture_open(&f);
-    ground_fixture_floor(&f, VIRGA_MATERIAL_CUSTOM);
-    ground_fixture_ground(&f, &def);
+    open_level_ground(60, 1024);
     ground_fixture_splash(&f, false);
-    REQUIRE(host_buffer_create(&f.gpu.device, sizeof *head() + MAX_LISTED * sizeof *droplets(),
-                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "list", &list, f.gpu.error,
-                               sizeof f.gpu.error));
-    f.handed = list.buffer;
-    *head() = (virga_handed_droplets_gpu){.capacity = MAX_LISTED, .group_count = {0, 1, 1}};
     ground_fixture_step(&f, 0);
 }
 
 static void end(void)
 {
     virga_splash_destroy(&f.splash);
-    virga_ground_destroy(&f.ground);
-    virga_context_destroy(&f.context);
-    host_buffer *const buffers[] = {&f.vertices, &f.indices, &f.impacts, &f.upload, &f.download, &list};
-    assert_int_equal(effect_fixture_end(&f.gpu, buffers, 6), 0);
+    close_level_ground();
 }
 
 static uint64_t listed_nl(void)

@@ -95,6 +95,13 @@ static const float *draw_only(shot *s, uint32_t id)
     return draw_frame(s, 0);
 }
 
+static void open_big_drops(shot *s)
+{
+    open_shot(s, 40);
+    rain_of_big_drops(s);
+    add_picture(s, 320, 240);
+}
+
 /* A lens spreads a streak over what it blurs a point to, and none of its coverage is lost; what is as far away as the
  * lens is focused stays as it was. */
 static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
@@ -102,9 +109,7 @@ static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
     (void)state;
     shot s;
     double distance = 0;
-    open_shot(&s, 40);
-    rain_of_big_drops(&s);
-    add_picture(&s, 320, 240);
+    open_big_drops(&s);
     s.f.settings.streak_gain = 100;
     apply_settings(&s);
     aim_level(&s);
@@ -130,9 +135,7 @@ static void a_streak_has_the_same_mean_light_however_blurred(void **state)
     (void)state;
     shot s;
     double distance = 0;
-    open_shot(&s, 40);
-    rain_of_big_drops(&s);
-    add_picture(&s, 320, 240);
+    open_big_drops(&s);
     memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
     s.f.settings.lighting.environment_sh[0][1] = 1 / 0.282095f;
     s.f.settings.lighting.environment_sh[2][1] = 1; /* what is behind the camera is lighter */
