@@ -23,8 +23,8 @@ vec2 film_link(uint wetted)
     return link < 0 ? vec2(0.0) : vec2(link % 3, link / 3) - 1.0;
 }
 
-// Where in a cell (in cells) the water lies that a drop left: drops do not run through the middles of cells, in lines
-// as by a ruler. From cell to cell it changes smoothly, in waves of about 10 and 4 cells, not the same beside.
+// Where in a cell (in cells) the water lies that a drop left: drops do not run straight through the middles of cells.
+// It changes smoothly from cell to cell, in waves of about 10 and 4 cells.
 vec2 way_through(vec2 cell)
 {
     const vec2 slow = vec2(0.71 * cell.x + 0.61 * cell.y, 0.67 * cell.x - 0.57 * cell.y);
