@@ -70,12 +70,16 @@ static double hazy_share(const virga_rain *rain, const rain_view_block *block, u
     return all > 0 ? hazy / all : 0;
 }
 
+/* Of the extinction by drops half is light that hits them, the other half is diffracted, which a picture does not lose:
+ * see shaders/rain/draw/haze.frag. */
+#define HITS_DROPS 0.5
+
 static void fill_haze(const virga_rain *rain, rain_view_block *out)
 {
-    const double extinction = virga_rain_extinction(rain->classes->rate_mm_h) * (double)rain->settings.haze;
+    const double per_m = HITS_DROPS * virga_rain_extinction(rain->classes->rate_mm_h) * (double)rain->settings.haze;
     for (uint32_t level = 0; level < rain->levels; level++)
-        out->look.haze_per_m[level] = (float)(extinction * hazy_share(rain, out, level));
-    out->look.haze_per_m[rain->levels] = (float)extinction;
+        out->look.haze_per_m[level] = (float)(per_m * hazy_share(rain, out, level));
+    out->look.haze_per_m[rain->levels] = (float)per_m;
     out->look.haze_inner_m = (float)(0.5 * ldexp(rain->classes->side_m, 1 - (int)rain->levels));
 }
 

@@ -102,7 +102,7 @@ struct virga_rain_look_gpu {
     float glow;                  /* factor of the light of lamps in haze */
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
     float haze_inner_m;          /* m, radius of the innermost box; each next box is twice as large */
-    /* 1/m, extinction of the drops that are not drawn as streaks, by box; the last entry is for everything beyond */
+    /* 1/m, light that hits drops which are not drawn as streaks, by box; the last entry is for everything beyond */
     float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1];
     /* Haze along a ray starts at the view depth begin.xyz . ray + begin.w, where the ray is scaled to a view depth of
      * 1 m. If that is not a valid depth, the ray has no haze. */

@@ -131,7 +131,7 @@ static void set_rain(bytes *b, virga_scene *scene)
     s.gust_m_s = read_float(b, 0, 30);
     s.gust_time_s = read_float(b, 0.1, 10);
     s.streak_gain = read_float(b, 0, 100);
-    s.haze = read_float(b, 0, 4);
+    s.haze = read_float(b, 0, 8);
     s.oscillation = read_float(b, 0, 4);
     s.streak_min_mm = read_float(b, 0.2, 2);
     s.streak_group_mm = read_float(b, 0.2, 100);

@@ -691,7 +691,7 @@ static void haze_veils_what_water_mirrors(void **state)
     assert_int_equal(virga_rain_set(s->rain, &settings), VIRGA_OK);
     host_renderer_haze_mirror(s->renderer, draw_haze, s);
     assert_true(draw(s, 1));
-    const double per_m = 4 * virga_rain_extinction(200);
+    const double per_m = 4 * 0.5 * virga_rain_extinction(200);
     for (int i = 0; i < ROWS; i++) {
         const int y = FIRST_ROW + i * ROW_STEP;
         const double left = (double)(redness(s, 88, y) / clear[i]);

@@ -119,7 +119,7 @@ static const struct {
     {"\train: 1\n", "s.yaml:5: not valid YAML: found character that cannot start any token"},
     {"rain: \xff\n", "s.yaml:5: not valid YAML: invalid leading UTF-8 octet"},
     {"---\nvirga: 1\n", "s.yaml:6: a second document begins, expected one"},
-    {"rain: {haze: \"a\\nb\\e[31m\"}\n", "rain.haze: expected a number from 0 to 4, got 'a?b?[31m'"},
+    {"rain: {haze: \"a\\nb\\e[31m\"}\n", "rain.haze: expected a number from 0 to 8, got 'a?b?[31m'"},
     {"!", "s.yaml: is empty"},
     {"!# nothing\n", "s.yaml: is empty"},
     {"!- 1\n", "s.yaml:1: expected keys such as 'virga: 1', got a list"},

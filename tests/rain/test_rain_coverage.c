@@ -238,6 +238,9 @@ static void an_even_environment_gives_its_radiance_times_the_coverage(void **sta
 
 /* ---- haze */
 
+/* Half of the extinction is light that hits drops; the other half is diffracted, and not lost. */
+static double haze_of(double rate_mm_h) { return 0.5 * virga_rain_extinction(rate_mm_h); }
+
 /* All drops are below 2 mm, and none of these is drawn one by one. */
 static void rain_of_haze(shot *s)
 {
@@ -254,15 +257,15 @@ static void check_haze(shot *s, double distance_m)
 {
     s->scene_depth = stored_depth(s, distance_m);
     const float *pixels = draw_frame(s, 0.02);
-    const double extinction = virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
+    const double per_m = haze_of((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
     const float *p = s->camera.clip_from_view;
     assert_int_equal(streak_count(s), 0);
     for (size_t i = 0; i < (size_t)s->picture.width * s->picture.height; i += 7) {
         const double x = (((double)(i % s->picture.width) + 0.5) / s->picture.width * 2 - 1) / (double)p[0],
                      y = (((double)(i / s->picture.width) + 0.5) / s->picture.height * 2 - 1) / (double)p[5];
-        const double length = sqrt(1 + x * x + y * y), alpha = 1 - exp(-extinction * distance_m * length);
+        const double length = sqrt(1 + x * x + y * y), alpha = 1 - exp(-per_m * distance_m * length);
         double radiance[3];
-        environment_at(s, (const double[3]){x / length, y / length, -1 / length}, (const double[3]){1, 0.97, 0.94},
+        environment_at(s, (const double[3]){x / length, y / length, -1 / length}, (const double[3]){1, 0.77, 0.54},
                        radiance);
         assert_true(fabs((double)pixels[i * 4 + 3] - alpha) < 2e-3 * alpha);
         for (int c = 0; c < 3; c++)
@@ -290,7 +293,7 @@ static void haze_thickens_by_beers_law(void **state)
 static double haze_beside_single_drops(const shot *s, double distance_m)
 {
     const rain_classes *classes = s->f.rain->classes;
-    const double extinction = virga_rain_extinction((double)s->f.settings.rate_mm_h);
+    const double per_m = haze_of((double)s->f.settings.rate_mm_h);
     double thickness = 0;
     for (uint32_t level = 0; level < classes->levels; level++) {
         double hazy = 0, all = 0;
@@ -304,7 +307,7 @@ static double haze_beside_single_drops(const shot *s, double distance_m)
         const double half = 0.5 * ldexp(classes->side_m, (int)level + 1 - (int)classes->levels);
         thickness += hazy / all * fmax(fmin(half, distance_m) - (level ? 0.5 * half : 0), 0);
     }
-    return 1 - exp(-extinction * thickness);
+    return 1 - exp(-per_m * thickness);
 }
 
 /* What the streaks of slots that stand for many drops do not cover is not lost. */
@@ -335,7 +338,7 @@ static void what_streaks_of_many_drops_do_not_cover_is_haze(void **state)
     rain_fixture_end_frame(&s.f);
     const float *pixels = host_target_floats(&s.f.gpu.device, &s.picture, HOST_LAYER);
     const double got = (double)pixels[4 * (60 * 160 + 80) + 3], expected = haze_beside_single_drops(&s, distance);
-    const double all = 1 - exp(-virga_rain_extinction(100) * distance);
+    const double all = 1 - exp(-haze_of(100) * distance);
     printf("haze covers %.5f, expected %.5f; without streaks %.5f\n", got, expected, all);
     assert_true(expected < 0.99 * all);
     assert_true(fabs(got / expected - 1) < 2e-3);
@@ -356,7 +359,7 @@ static void there_is_haze_before_the_sky_by_default_and_none_without_depth(void 
         s.f.settings.haze_sky_m = (float)metres[i];
         apply_settings(&s);
         const double before_it = sum_of(&s, draw_frame(&s, 0.02), 3) / (s.picture.width * s.picture.height);
-        assert_true(fabs(before_it - (1 - exp(-4 * metres[i] * virga_rain_extinction(100)))) < 1e-3);
+        assert_true(fabs(before_it - (1 - exp(-4 * metres[i] * haze_of(100)))) < 1e-3);
         assert_true(metres[i] > 0 || before_it == 0);
     }
     s.scene_depth = stored_depth(&s, 20);
@@ -415,16 +418,16 @@ static void haze_alone_begins_at_its_plane(void **state)
     assert_true(streak_count(&s) > 100);
     s.scene_depth = stored_depth(&s, distance);
     const float *pixels = draw_haze_alone(&s, false), *p = s.camera.clip_from_view;
-    const double extinction = virga_rain_extinction(100);
+    const double per_m = haze_of(100);
     uint32_t hazed = 0;
     for (size_t i = 0; i < (size_t)s.picture.width * s.picture.height; i += 7) {
         const double x = (((double)(i % s.picture.width) + 0.5) / s.picture.width * 2 - 1) / (double)p[0],
                      up = -(((double)(i / s.picture.width) + 0.5) / s.picture.height * 2 - 1) / (double)p[5];
         const double length = sqrt(1 + x * x + up * up);
         const double way = up > 0 ? fmax(distance - s.f.camera[1] / up, 0) * length : 0;
-        const double alpha = 1 - exp(-extinction * way);
+        const double alpha = 1 - exp(-per_m * way);
         double radiance[3];
-        environment_at(&s, (const double[3]){x / length, up / length, -1 / length}, (const double[3]){1, 0.97, 0.94},
+        environment_at(&s, (const double[3]){x / length, up / length, -1 / length}, (const double[3]){1, 0.77, 0.54},
                        radiance);
         assert_true(fabs((double)pixels[i * 4 + 3] - alpha) < 2e-3 * alpha + 1e-6);
         for (int c = 0; c < 3; c++)

@@ -62,12 +62,12 @@ static double lamp_along(const double ray[3])
     return ray[0] * lamp_at[0] + ray[1] * lamp_at[1] + ray[2] * lamp_at[2];
 }
 
-/* Single scattering along a ray from `begins` up to `ends`, by drops that take half of the extinction: the other half
+/* Single scattering along a ray from `begins` up to `ends`, by the half of the extinction that hits drops: the other half
  * is diffraction. The lamp is 0.1 m wide, and a pixel half of its own width. */
 static double glow_along(const shot *s, const double ray[3], double begins, double ends)
 {
     const virga_light *lamp = &s->f.settings.lighting.lights[0];
-    const double k = virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
+    const double k = 0.5 * virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
     const int steps = 4000;
     const double pixel = 0.5 * lamp_along(ray) * 2 / (fabs((double)s->camera.clip_from_view[5]) * HEIGHT);
     const double min2 = 0.1 * 0.1 + pixel * pixel;
@@ -85,10 +85,10 @@ static double glow_along(const shot *s, const double ray[3], double begins, doub
             out[axis] /= r;
             bent -= out[axis] * ray[axis];
         }
-        sum += goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-0.5 * k * (t - begins + r)) *
+        sum += goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-k * (t - begins + r)) *
                (ends - begins) / steps;
     }
-    return 0.5 * k * sum * (double)s->f.settings.light_gain * (double)s->f.settings.glow;
+    return k * sum * (double)s->f.settings.light_gain * (double)s->f.settings.glow;
 }
 
 static double compare_glow(const shot *s, const float *pixels, double begin_m, double depth_m, double tolerance)

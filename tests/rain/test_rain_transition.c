@@ -189,7 +189,7 @@ static void transition_0_is_at_once(void **state)
 
 /* ---- haze */
 
-/* Extinction beyond all boxes, as a prepare has it. */
+/* Haze beyond all boxes, as a prepare has it. */
 static double haze_of_a_prepare(rain_fixture *f)
 {
     const host_camera_key key = {0, {0, 1.7, 0}, {0, 1.7, -5}, 0, false};
@@ -216,10 +216,10 @@ static void haze_eases_with_the_rate(void **state)
         rain_fixture f;
         open_sky(&f, up ? 2 : 60, (float)(TICKS * tick_s));
         double before = haze_of_a_prepare(&f);
-        assert_true(fabs(before / virga_rain_extinction(up ? 2 : 60) - 1) < 1e-3);
+        assert_true(fabs(before / (0.5 * virga_rain_extinction(up ? 2 : 60)) - 1) < 1e-3);
         f.settings.rate_mm_h = up ? 60 : 0;
         set(&f);
-        const double target = virga_rain_extinction(up ? 60 : 0), way = fabs(target - before);
+        const double target = 0.5 * virga_rain_extinction(up ? 60 : 0), way = fabs(target - before);
         for (int tick = 0; tick < TICKS; tick++) {
             const double now = haze_of_a_prepare(&f);
             assert_true(fabs(now - before) < 0.2 * way);

@@ -97,12 +97,12 @@ static double way_of(int x)
 }
 
 /* A drop covers its disc, and rain R = N v (pi/6) D^3, so that a metre of it covers N (pi/4) D^2 = 1.5 R / (v D). What
- * is not drawn as streaks is haze, of 0.312 R^0.67 per km. Both together are all of the rain before the plate, from the
+ * is not drawn as streaks is haze, of half of 0.312 R^0.67 per km: as much is diffracted. Both together are all of the rain before the plate, from the
  * camera's near plane on. */
 static void check_density(const sums *all)
 {
     const double covered = 1.5 * RATE_MM_H / 3.6e6 / (SPEED_M_S * DIAMETER_M);
-    const double extinction = 0.312e-3 * pow(RATE_MM_H, 0.67);
+    const double extinction = 0.5 * 0.312e-3 * pow(RATE_MM_H, 0.67);
     for (int band = 0; band < BANDS; band++) {
         double way = -NEAR_M, found = 0;
         for (int x = band * PER_BAND; x < (band + 1) * PER_BAND; x++) {
@@ -117,7 +117,7 @@ static void check_density(const sums *all)
 /* Between two columns that are both beyond the range of drops there is haze alone. */
 static void check_veil(const sums *all)
 {
-    const double extinction = 0.312 * pow(RATE_MM_H, 0.67);
+    const double extinction = 0.5 * 0.312 * pow(RATE_MM_H, 0.67);
     for (int x = 216; x < WIDTH - 8; x += 8) {
         const double per_km = 1e3 * (all->haze[x + 8] - all->haze[x]) / (way_of(x + 8) - way_of(x));
         check(fabs(per_km / extinction - 1) < 0.02, "extinction per km in", x / PER_BAND, per_km, extinction);

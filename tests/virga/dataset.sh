@@ -129,7 +129,7 @@ for image, speed, focal, rate in ((left, 13.25, 72, 80), (right, 13.25, 72, 80),
     expect("speed", own["speed_m_s"], speed)
     expect("focal length", own["focal_px"][0], focal, 1e-3)
     expect("depth", own["has_depth"], True)
-    expect("visibility", own["visibility_m"], -math.log(0.05) / (0.312e-3 * rate ** 0.67), 1)
+    expect("visibility", own["visibility_m"], -math.log(0.05) / (0.5 * 0.312e-3 * rate ** 0.67), 1)
 expect("wind of the other camera", right["virga"]["wind_m_s"][0], left["virga"]["wind_m_s"][0])
 # A drop is to the left in the right picture, by focal length times the distance of the cameras over its depth.
 def boxes_of(image):

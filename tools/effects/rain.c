@@ -68,7 +68,7 @@ static const scene_row rain_rows[] = {
     NUMBER(scene_rain, soft_m, 0, 1, "0.05", LIVE, "streaks fade over this depth where they meet geometry"),
     NUMBER(scene_rain, near_fade_m, 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"),
     NUMBER(scene_rain, oscillation, 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"),
-    NUMBER(scene_rain, haze, 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"),
+    NUMBER(scene_rain, haze, 0, 8, "1", LIVE, "haze of the rain farther off; 1 is physical"),
     NUMBER(scene_rain, haze_sky_m, 0, 100000, "400", LIVE,
            "haze before the sky; 0 where its picture was taken in rain, as a --plate without depth"),
     NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),

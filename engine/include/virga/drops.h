@@ -104,7 +104,8 @@ VIRGA_API virga_result virga_sizes_densities(const virga_sizes *sizes, double ra
 VIRGA_API double virga_sizes_landing_share(const virga_sizes *sizes, double rate_mm_h, double air_density,
                                            double diameter_m);
 
-/* Returns the extinction (1/m) of light by rain of that rate [0; 1e6] mm/h: 0.312 R^0.67 per km. */
+/* Returns the extinction (1/m) of light by rain of that rate [0; 1e6] mm/h: 0.312 R^0.67 per km. Half of it is light
+ * that drops diffract by less than a tenth of a degree, which a narrow beam loses and a picture does not. */
 VIRGA_API double virga_rain_extinction(double rate_mm_h);
 
 #ifdef __cplusplus

@@ -1,11 +1,10 @@
 // glow.glsl - the light of a lamp that haze scatters towards the camera.
 //
-// Half of the light that haze takes out of a ray is diffracted by less than half a degree; it stays in the lamp's own
-// image. The other half hits drops, which spread it by their phase function p. Along a ray that passes a lamp of
-// intensity I at the distance h, light is scattered by the angle a, which gives
+// Haze of k per metre is the light that hits drops (see haze.frag), which spread it by their phase function p. Along a
+// ray that passes a lamp of intensity I at the distance h, light is scattered by the angle a, which gives
 //
-//     L = int (k / 2) (I / r^2) p(a) ds      with   r = h / sin a,   s = -h / tan a,   ds / r^2 = da / h
-//       = (k / 2) (I / h) (F(a1) - F(a0))    where  F(a) = int_0^a p,
+//     L = int k (I / r^2) p(a) ds      with   r = h / sin a,   s = -h / tan a,   ds / r^2 = da / h
+//       = k (I / h) (F(a1) - F(a0))    where  F(a) = int_0^a p,
 //
 // with a0 at the camera, or where haze begins, and a1 at the end of the ray. A lamp's glow comes from the haze around
 // it, so k is the extinction there, and the glow is attenuated on the way to the camera as the lamp is.

@@ -23,7 +23,7 @@ layout(location = 7) noperspective out float begins; // 1 / view depth at which 
 float haze_extinction(uint box) { return look.haze_per_m[min(box, tick.levels)]; }
 
 // Distance from the ray to the lamp at which the glow is invisible: below a 300th of the ambient light and a 200th of
-// what a white wall at three metres from the lamp shows. From L = (k / 2) (I / h) F(pi).
+// what a white wall at three metres from the lamp shows. From L = k (I / h) F(pi).
 float glow_reach(vec3 power, vec3 intensity)
 {
     const float max_power = max(max(power.r, power.g), power.b),
@@ -78,8 +78,8 @@ void main()
     const float per_m =
         (haze_thickness(1.25 * distance, inner) - haze_thickness(0.8 * distance, inner)) / max(0.45 * distance, 1e-3);
     const float clear_share = 1.0 / max(inverse_begin(at), 1.0); // part of the way to the lamp without haze
-    const float transmittance = exp(-0.5 * haze_thickness(distance * (1.0 - clear_share), inner));
-    const vec3 power = to_vec(light.intensity) * (0.5 * per_m * transmittance * view.light_gain * look.glow);
+    const float transmittance = exp(-haze_thickness(distance * (1.0 - clear_share), inner));
+    const vec3 power = to_vec(light.intensity) * (per_m * transmittance * view.light_gain * look.glow);
     const float reach = glow_reach(power, to_vec(light.intensity));
 
     const vec2 corner = vec2(gl_VertexIndex == 1 || gl_VertexIndex >= 4 ? 1.0 : -1.0,

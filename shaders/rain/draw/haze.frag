@@ -1,5 +1,14 @@
-// haze.frag - haze: the rain that is too small or too far away to be drawn as drops. Its extinction is 0.312 R^0.67 per
-// km, and it scatters light from nearly straight ahead (Henyey-Greenstein with g = 0.97: moments g and g^2).
+// haze.frag - haze: the rain that is too small or too far away to be drawn as drops.
+//
+// A drop that is much wider than a wavelength takes twice the light of its disc out of a ray: what hits it, and as much
+// that is diffracted around it (van de Hulst 1957; the extinction by Atlas, 0.312 R^0.67 per km, has both). A drop of
+// 1 mm diffracts by less than a twentieth of a degree. A picture does not lose this light, and it does not blur it by a
+// pixel. So haze is half of the extinction: the drops' discs, as streaks cover the picture with them, and as the glow of
+// lamps has it.
+//
+// Drops bend the other half by 40 degrees and more: haze shows what is around, and has the light of the streaks that it
+// stands for. See streak_write.comp for the moments.
+//
 // One invocation per pixel. Reads: the scene's depth. Writes: radiance and opacity.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -18,6 +27,8 @@ layout(location = 6) flat in vec4 sky[SKY_VECTORS];
 layout(location = 13) noperspective in float inverse_begin_depth;
 layout(location = 0) out vec4 radiance;
 
+#define HAZE_MOMENTS vec2(0.77, 0.54) // first and second Legendre moment of what drops scatter, over all of their disc
+
 float sky_word(uint word) { return sky[word / 4u][word % 4u]; }
 
 vec3 sh_coefficient(uint i) { return vec3(sky_word(3u * i), sky_word(3u * i + 1u), sky_word(3u * i + 2u)); }
@@ -32,5 +43,5 @@ void main()
     const float alpha = 1.0 - exp(-haze_thickness(path_m, depth_and_reach.w));
     if (alpha <= 0.0 || inverse_begin_depth <= 0.0)
         discard;
-    radiance = for_target(vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha));
+    radiance = for_target(vec4(environment(normalize(ray), HAZE_MOMENTS) * alpha, alpha));
 }

@@ -1,4 +1,4 @@
-// haze.glsl - optical thickness of haze. The includer defines haze_extinction(box): extinction per metre in each of the
+// haze.glsl - optical thickness of haze. The includer defines haze_extinction(box): haze per metre in each of the
 // boxes around the camera, and beyond the last one for box VIRGA_RAIN_MAX_LEVELS.
 float haze_extinction(uint box);
 

@@ -10,7 +10,7 @@
 layout(location = 0) noperspective out vec3 ray; // with a view depth of 1 m
 // xyz: depth_a, depth_b, far_depth of the view; w: half the innermost box
 layout(location = 1) flat out vec4 depth_and_reach;
-layout(location = 2) flat out vec4 per_m[HAZE_VECTORS]; // extinction in each box and beyond the last
+layout(location = 2) flat out vec4 per_m[HAZE_VECTORS]; // light that hits drops, in each box and beyond the last
 layout(location = 6) flat out vec4 sky[SKY_VECTORS];    // coefficients of the environment, red, green, blue, red and so
                                                         // on; the last word: metres of haze before it
 layout(location = 13) noperspective out float inverse_begin_depth; // 1 / view depth at which haze begins

@@ -54,7 +54,8 @@ static json_t *categories(void)
 static json_t *image_of(const dataset_output *out, const shot *s, uint32_t index, const dataset_weather *weather)
 {
     const dataset_picture *p = &out->list->pictures[index];
-    const double extinction = out->haze * virga_rain_extinction(out->rate_mm_h);
+    /* Half: what drops diffract is not lost for a picture, see haze in virga/rain.h. */
+    const double extinction = out->haze * 0.5 * virga_rain_extinction(out->rate_mm_h);
     const int stem = (int)(strrchr(p->name, '.') - p->name);
     char file[4096];
     double focal[2], center[2];
