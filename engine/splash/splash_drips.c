@@ -30,7 +30,8 @@
 #define VISCOSITY_M2_S 1.0e-6 /* of water at 20 C */
 #define NL_PER_M3      1e12
 
-#define MAX_SPEED_M_S    20.0f
+#define MAX_SPEED_M_S    20.0f  /* of water that leaves a place that stands */
+#define MAX_MOVING_M_S   100.0f /* of a place */
 #define MAX_DROPS_AS_ONE 64.0f
 
 typedef struct drip_block {
@@ -51,11 +52,12 @@ static virga_result check_site(const virga_log *log, const virga_drip_site *site
                                     "virga_splash_set_drips: site %u: expected catch_m2 above 0 and up to 4, width_m "
                                     "0.005 to 1 and slope 0.005 to 1, got %g, %g and %g",
                                     index, (double)site->catch_m2, (double)site->width_m, (double)site->slope);
+    const float fastest = site->moves ? MAX_MOVING_M_S : MAX_SPEED_M_S;
     for (int axis = 0; axis < 3; axis++)
-        if (!(fabsf(site->velocity_m_s[axis]) <= MAX_SPEED_M_S))
-            return virga_wrong_argument(
-                log, "virga_splash_set_drips: site %u: expected velocity_m_s of -%g to %g, got %g", index,
-                (double)MAX_SPEED_M_S, (double)MAX_SPEED_M_S, (double)site->velocity_m_s[axis]);
+        if (!(fabsf(site->velocity_m_s[axis]) <= fastest))
+            return virga_wrong_argument(log,
+                                        "virga_splash_set_drips: site %u: expected velocity_m_s of -%g to %g, got %g",
+                                        index, (double)fastest, (double)fastest, (double)site->velocity_m_s[axis]);
     if (!(site->drops >= 0 && site->drops <= MAX_DROPS_AS_ONE))
         return virga_wrong_argument(log, "virga_splash_set_drips: site %u: expected drops of 0 to %g, got %g", index,
                                     (double)MAX_DROPS_AS_ONE, (double)site->drops);
@@ -69,6 +71,7 @@ static virga_drip_site_gpu site_of(const virga_drip_site *site, const double ori
     out.drain = (float)((double)site->width_m * GRAVITY_M_S2 * (double)site->slope / (3 * VISCOSITY_M2_S) * NL_PER_M3 *
                         thinner * thinner * thinner);
     out.drops = fmaxf(site->drops, 1);
+    out.jet = site->moves ? 0 : 1;
     for (int axis = 0; axis < 3; axis++) {
         out.position[axis] = (float)(site->position_m[axis] - origin_m[axis]);
         out.velocity[axis] = site->velocity_m_s[axis];

@@ -19,7 +19,7 @@ struct virga_drip_site_gpu {
     float drain;       /* nl/s that leave a film of n nl, over n^3, see engine/splash/splash_drips.c */
     uint seed;         /* a number of its own */
     float drops;       /* that fly as one */
-    uint pad;
+    float jet;         /* 1: they fly from a place that stands; 0: the place has their velocity too */
     float velocity[3]; /* m/s, with which they leave */
     float pad_too;
 };

@@ -117,6 +117,17 @@ static void water_of_a_balcony_falls_on_the_awning_below(void **state)
         assert_true(sites[i].position_m[1] < 3.2);
 }
 
+/* The sides of the awning are steep: what hangs there runs along them to the corners in front. */
+static void edges_that_slope_drip_where_they_are_lowest(void **state)
+{
+    (void)state;
+    const plate plates[2] = {street, {{-2, 0}, {2, 1.5}, 3.1, 2.5, false}};
+    const uint32_t count = find(plates, 2, MAX_SITES);
+    const double low[2] = {-2.1, 0.1}, high[2] = {2.1, 1.4};
+    assert_float_equal(catchment(count, low, high), 0, 0);
+    assert_float_equal(catchment(count, all_low, all_high), 6, 0.1);
+}
+
 static void low_steps_and_places_without_ground_below_do_not_drip(void **state)
 {
     (void)state;
@@ -245,6 +256,7 @@ int main(void)
         cmocka_unit_test(an_awning_drips_along_its_lower_edge),
         cmocka_unit_test(a_level_slab_drips_all_around),
         cmocka_unit_test(water_of_a_balcony_falls_on_the_awning_below),
+        cmocka_unit_test(edges_that_slope_drip_where_they_are_lowest),
         cmocka_unit_test(low_steps_and_places_without_ground_below_do_not_drip),
         cmocka_unit_test(roofs_have_gutters),
         cmocka_unit_test(what_falls_on_a_roof_drips_or_comes_into_its_gutter),

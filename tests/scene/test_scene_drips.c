@@ -15,15 +15,29 @@ typedef struct drips_run {
     virga_scene *scene;
     host_buffer vertices, indices;
     uint32_t frames;
+    float speed_m_s; /* of the edge; 0: it stands */
 } drips_run;
 
 static drips_run run;
+
+/* `way_m` from where it begins. Where it has a speed it moves. */
+static void place_edge(double way_m, float speed_m_s)
+{
+    virga_drip_site sites[SITES];
+    for (uint32_t i = 0; i < SITES; i++)
+        sites[i] = (virga_drip_site){.position_m = {-0.5 + 0.025 * i + way_m, EDGE_M, 0.3},
+                                     .catch_m2 = (float)(0.025 * EDGE_M),
+                                     .width_m = 0.025f,
+                                     .slope = 0.3f,
+                                     .velocity_m_s = {speed_m_s, 0, 0},
+                                     .moves = speed_m_s > 0};
+    REQUIRE(virga_splash_set_drips(virga_scene_splash(run.scene), sites, SITES) == VIRGA_OK);
+}
 
 static void open_run(float rate_mm_h, uint32_t max_droplets)
 {
     virga_scene_def def = virga_default_scene_def();
     virga_rain_settings rain = virga_default_rain_settings();
-    virga_drip_site sites[SITES];
     def.rain = small_rain_def();
     def.ground = small_ground_def();
     def.splash = small_splash_def();
@@ -35,12 +49,7 @@ static void open_run(float rate_mm_h, uint32_t max_droplets)
     REQUIRE(virga_scene_create(run.context, &def, &run.scene) == VIRGA_OK);
     rain.rate_mm_h = rate_mm_h;
     REQUIRE(virga_rain_set(virga_scene_rain(run.scene), &rain) == VIRGA_OK);
-    for (uint32_t i = 0; i < SITES; i++)
-        sites[i] = (virga_drip_site){.position_m = {-0.5 + 0.025 * i, EDGE_M, 0.3},
-                                     .catch_m2 = (float)(0.025 * EDGE_M),
-                                     .width_m = 0.025f,
-                                     .slope = 0.3f};
-    REQUIRE(virga_splash_set_drips(virga_scene_splash(run.scene), sites, SITES) == VIRGA_OK);
+    place_edge(0, 0);
     host_parts_square(&run.gpu, &run.vertices, &run.indices);
 }
 
@@ -73,6 +82,8 @@ static void play(uint32_t frames, uint32_t lost)
         const VkCommandBuffer cmd = effect_fixture_begin(&run.gpu, run.context);
         const virga_scene_frame frame = {
             .dt_s = FRAME_S, .camera_m = {0, 1.7, 0}, .occluders = &square, .occluder_count = 1};
+        if (run.speed_m_s > 0)
+            place_edge((double)run.speed_m_s * FRAME_S * (run.frames + 1), run.speed_m_s);
         const bool throws_away = virga_hash2(i, 77) % 16 < lost;
         assert_int_equal(virga_scene_record(run.scene, cmd, &frame), VIRGA_OK);
         if (throws_away)
@@ -123,11 +134,29 @@ static void lost_frames_and_full_pools_lose_no_water(void **state)
     close_run();
 }
 
+/* An edge that drives, set anew in each frame: it drips as one that stands, along its way. */
+static void an_edge_that_moves_drips_as_much(void **state)
+{
+    virga_splash_stats splash;
+    virga_ground_stats ground;
+    (void)state;
+    open_run(60, 8192);
+    run.speed_m_s = 2;
+    play(100, 0);
+    virga_splash_stats_get(virga_scene_splash(run.scene), &splash);
+    virga_ground_stats_get(virga_scene_ground(run.scene), &ground);
+    assert_float_equal(1e-6 * (double)splash.drip_nl, 50, 3);
+    assert_true(ground.spray_nl > 20000000);
+    play(60, 4);
+    close_run();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_edge_drips_by_the_rate_of_the_rain),
         cmocka_unit_test(without_rain_and_dry_it_does_not_drip),
+        cmocka_unit_test(an_edge_that_moves_drips_as_much),
         cmocka_unit_test(lost_frames_and_full_pools_lose_no_water),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

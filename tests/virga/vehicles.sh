@@ -51,6 +51,27 @@ END
 }
 budget all 100000000 || fail "water of wheels"
 
+# The roof is 1 m^2 and drips along its way: 30 mm/h on it are 1,250 ul in 0.15 s. Nothing else can.
+draw drive drips --stats --frames 1-6 --set splash.drips.on=true
+draw drive dry --stats --frames 1-6 --set splash.drips.on=true --set splash.drips.moving=false
+budget drips 100000000 || fail "water of wheels and drips"
+python3 - "$work" <<'END' || fail "drips of what drives"
+import json, sys
+lines = [json.loads(line)["splash"]["drips"] for line in open(sys.argv[1] + "/drips/stats.jsonl")]
+dry = [json.loads(line)["splash"]["drips"] for line in open(sys.argv[1] + "/dry/stats.jsonl")]
+first, last = lines[2], lines[-1] # the first step adds the film of rain before it
+came = last["rain_ul"] - first["rain_ul"]
+print(f"{last['drops']} drops fell; {came} ul of rain came in 0.15 s")
+if not abs(came - 1250) < 0.06 * 1250:
+    sys.exit("the roof should get 1250 ul")
+if not last["drops"] > 20:
+    sys.exit("it does not drip")
+if any(line["drops"] or line["rain_ul"] for line in dry):
+    sys.exit("it drips where it should not")
+if abs(last["rain_ul"] - last["fell_ul"] - last["on_surfaces_ul"]) > 1e-3:
+    sys.exit("water is lost")
+END
+
 # A figure of one triangle, with two poses, treads on the same road: its feet throw water, too.
 for pose in 0 1; do
     printf 'o pose_%d_leg\nv 0 0 %d\nv 0.2 0 %d\nv 0 1 0\nf %d %d %d\n' $pose $pose $pose $((3 * pose + 1)) \
@@ -88,6 +109,7 @@ refuse 'vehicles.0.pose_part: expected file beside it' \
     --set 'vehicles=[{pose_part: pose_, keys: [{time_s: 0, position_m: [0, 0, 0]}]}]'
 refuse 'vehicles.0.lamps.0.outer_deg: expected more than inner_deg (30), got 20' \
     --set 'vehicles.0.lamps=[{position_m: [0, 0, 0], intensity_w_sr: 1, inner_deg: 30}]'
+refuse 'splash.drips.moving: expected true or false' --set splash.drips.moving=some
 refuse 'vehicles.0.file' --set vehicles.0.file=none.obj
 
 [ $failures = 0 ] && echo "wheels throw water"

@@ -61,6 +61,7 @@ typedef struct shot {
     virga_occluder *occluders; /* room for SHOT_MAX_OCCLUDERS; effects may add theirs when they open */
     uint32_t occluder_count;
     struct host_drip_edges *drip_edges; /* while meshes are loaded; NULL: nothing drips */
+    struct tool_drips *drips;           /* all places that drip; NULL: nothing drips */
     host_camera_key *camera_keys;
     uint32_t camera_key_count;
     bool keys_from_file;

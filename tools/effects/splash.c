@@ -38,6 +38,7 @@ static const scene_row drip_rows[] = {
     SWITCH(scene_splash_drips, wet, "true", RESTARTS, "it has rained for long before the first frame"),
     WHOLE(scene_splash_drips, max_sites, 16, 65536, "16384", RESTARTS,
           "places that drip at most: those with the most water"),
+    SWITCH(scene_splash_drips, moving, "true", RESTARTS, "what drives or walks drips too, with its own velocity"),
     SWITCH(scene_splash_drips, pour, "true", RESTARTS, "water of roofs comes out of downpipes; false: it is gone"),
     LIST(scene_splash_drips, pipes, pipe_count, &pipe_group, 0, 256, "[]",
          "lower ends of downpipes; without any there is one at an end of each gutter"),
@@ -132,6 +133,7 @@ static void close_state(shot *s, void *state)
 {
     splash_state *p = state;
     host_buffer_destroy(&s->device, &p->droplets.buffer);
+    tool_drips_close(s);
 }
 
 /* Lit and carried by the same air as the rain, whose settings are applied before. */

@@ -23,6 +23,7 @@ typedef struct scene_splash_drips {
     double min_mm, max_mm;
     bool wet;
     uint32_t max_sites;
+    bool moving;
     bool pour;
     scene_downpipe *pipes;
     uint32_t pipe_count;

@@ -5,6 +5,7 @@
 #include "effect.h"
 #include "materials.h"
 #include "scene_rows.h"
+#include "splash/drips.h"
 #include "vehicles/walk.h"
 #include "water/body_pose.h"
 
@@ -171,6 +172,7 @@ typedef struct vehicle {
     part body, wheels[SCENE_MAX_WHEELS];
     host_buffer sheltering; /* vertices at rest, for rain */
     uint32_t first_occluder, occluder_count;
+    uint32_t first_drip, drip_count; /* places that drip */
     walk_poses poses;
 } vehicle;
 
@@ -241,6 +243,25 @@ static bool add_occluders(shot *s, vehicle *v, char *error, size_t error_size)
     return true;
 }
 
+/* Where its wheels and feet stand. */
+static double ground_of(const scene_vehicle *from)
+{
+    double ground_m = from->wheel_count + from->foot_count ? INFINITY : 0;
+    for (uint32_t i = 0; i < from->wheel_count; i++)
+        ground_m = fmin(ground_m, from->wheels[i].contact_m[1]);
+    for (uint32_t i = 0; i < from->foot_count; i++)
+        ground_m = fmin(ground_m, from->feet[i].sole_m[1]);
+    return ground_m;
+}
+
+/* As it is at rest, in the first pose of one that walks. */
+static bool add_drips(shot *s, const scene_vehicle *from, vehicle *v, char *error, size_t error_size)
+{
+    v->drip_count = tool_drips_add_model(s, &v->body.mesh, v->body.vertices, v->body.indices, ground_of(from),
+                                         &v->first_drip, error, error_size);
+    return v->drip_count != UINT32_MAX;
+}
+
 static bool open_state(shot *s, void *state, char *error, size_t error_size)
 {
     vehicles_state *all = state;
@@ -253,7 +274,7 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
         if (!load_part(s, given, false, &v->body, error, error_size) ||
             (given->pose_part && !shot_blame_input(s, walk_poses_take(&v->body.mesh, v->body.indices, given->pose_part,
                                                                       &v->poses, error, error_size))) ||
-            !add_occluders(s, v, error, error_size))
+            !add_occluders(s, v, error, error_size) || !add_drips(s, given, v, error, error_size))
             return false;
         for (uint32_t k = 0; given->wheel_part && k < given->wheel_count; k++)
             if (!load_part(s, given, true, &v->wheels[k], error, error_size))
@@ -441,6 +462,14 @@ static void find_travel(const shot *s, const scene_vehicle *from, vehicle *v, do
         v->wheels[k].mesh.travel_m = WHEELS * body_m;
 }
 
+static void move_drips(shot *s, const scene_vehicle *from, const vehicle *v, double time_s)
+{
+    float now[12], before[12];
+    transform_at(from, time_s, now);
+    transform_at(from, time_s - STEP_S, before);
+    tool_drips_move(s, v->first_drip, v->drip_count, now, before, STEP_S);
+}
+
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
                        char *error, size_t error_size)
 {
@@ -448,12 +477,13 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     const scene_vehicles *from = scene_vehicles_of(s->scene);
     uint32_t count = 0, feet = 0, id = 0;
     place_lamps(s, time_s);
-    (void)camera, (void)error, (void)error_size;
+    (void)camera;
     for (uint32_t i = 0; i < from->vehicle_count; i++) {
         vehicle *v = &all->vehicles[i];
         find_travel(s, &from->vehicles[i], v, time_s);
         for (uint32_t k = 0; k < v->occluder_count; k++)
             transform_at(&from->vehicles[i], time_s, s->occluders[v->first_occluder + k].world_from_mesh);
+        move_drips(s, &from->vehicles[i], v, time_s);
         for (uint32_t k = 0; k < from->vehicles[i].wheel_count; k++) {
             virga_wheel *wheel = &all->wheels[count];
             *wheel = virga_default_wheel();
@@ -473,7 +503,7 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     frame->foot_count = feet;
     frame->wheels = all->wheels;
     frame->wheel_count = count;
-    return true;
+    return tool_drips_send(s, error, error_size);
 }
 
 /* ---- picture -------------------------------------------------------------------------------------------------- */

@@ -249,6 +249,11 @@ typedef struct virga_drip_site {
     /* [0; 64] drops that fly as one, and land in one place: for pipes, which pour thousands in a second. 0 counts as 1.
      * In a tick four leave a place at most, and what waits is counted as hanging. Default 0. */
     float drops;
+
+    /* true: the place itself moves with velocity_m_s, as the edge of a car or an umbrella, and position_m is where it
+     * is at the end of the frame. Its drops have its velocity, which may be -100 to 100 then, and fall from where it
+     * was when they left it. false: it stands. Default false. */
+    bool moves;
 } virga_drip_site;
 
 /* Says where rain water drips; NULL and 0: nowhere. Rain (step_info.rain_mm_h) runs over each surface as a film,
@@ -257,9 +262,11 @@ typedef struct virga_drip_site {
  * The rain that the surface gets is the mean for its area, while the rain's own drops still land on it.
  *
  * `sites` is copied. Takes effect in the next step. A site keeps the water of the site that had its index before; call
- * it again after a state was loaded, as sites are not part of it. `count`: at most def.max_drips, else
- * VIRGA_ERROR_INVALID, as with values out of range; nothing changes then. Costs some ns a site here, and in each tick
- * about 0.3 us a site on software Vulkan, which computes them one after the other. Thread-safety: as the splashes. */
+ * it again after a state was loaded, as sites are not part of it. Where something moves, call it before each step with
+ * its places behind those that stand: they keep their water by their index. `count`: at most def.max_drips, else
+ * VIRGA_ERROR_INVALID, as with values out of range; nothing changes then. Costs some ns a site here and a copy of 48
+ * bytes a site in the next step, and in each tick about 0.3 us a site on software Vulkan, which computes them one after
+ * the other. Thread-safety: as the splashes. */
 VIRGA_API virga_result virga_splash_set_drips(virga_splash *splash, const virga_drip_site *sites, uint32_t count);
 
 /* The ground that spray falls on: what virga_ground_cells_get and virga_ground_maps_get say, after the ground's step.

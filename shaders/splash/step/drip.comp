@@ -53,12 +53,13 @@ virga_drip_gpu begin_drip(virga_drip_site_gpu site)
     return drip;
 }
 
-// A drop that fell `age_s` before the end of the step. In this short time the air hardly slows it down.
+// A drop that fell `age_s` before the end of the step. In this short time the air hardly slows it down. From a place that
+// stands it has flown v t ahead of it. One that moves has done so too: at x - v t the drop left it, and is at x now.
 void write_drop(uint index, virga_drip_site_gpu site, uint number, float age_s)
 {
     const float diameter_m = diameter_of(site.seed, number), late_s = age_s + tick.handed_late_s;
     vec3 position = to_vec(site.position) + to_vec(tick.drip_offset);
-    position += to_vec(site.velocity) * late_s;
+    position += to_vec(site.velocity) * (site.jet * late_s);
     position.y -= 0.5 * diameter_m + 0.5 * GRAVITY * late_s * late_s;
     virga_handed_droplet_gpu drop;
     drop.position = float[3](position.x, position.y, position.z);

@@ -2,6 +2,7 @@
 #include "splash/drips.h"
 
 #include "drip_edges.h"
+#include "drip_model.h"
 #include "effect.h"
 #include "splash.h"
 
@@ -11,6 +12,14 @@
 
 #define AROUND_M 16.0 /* of the camera's path: a drop of 4 mm is a tenth of a pixel wide there */
 #define MOST_M   48.0
+
+typedef struct tool_drips {
+    virga_splash *splash;     /* NULL: none */
+    virga_drip_site *sites;   /* what stands, then what moves, as it is now */
+    virga_drip_site *at_rest; /* the same for what moves, with the model's own positions */
+    uint32_t standing, count, room;
+    bool moved;
+} tool_drips;
 
 static bool drips(const shot *s)
 {
@@ -95,19 +104,82 @@ static uint32_t find(shot *s, virga_drip_site *sites, char *error, size_t error_
     return count;
 }
 
+static bool send(shot *s, char *error, size_t error_size)
+{
+    const tool_drips *d = s->drips;
+    return !d->splash || shot_ok(s, virga_splash_set_drips(d->splash, d->sites, d->count),
+                                 "setting the edges that drip", error, error_size);
+}
+
 bool tool_drips_open(shot *s, virga_splash *splash, char *error, size_t error_size)
 {
-    const scene_splash_drips *from = &scene_splash_of(s->scene)->drips;
-    if (!s->drip_edges)
+    if (!drips(s))
         return true;
-    virga_drip_site *sites = malloc(from->max_sites * sizeof *sites);
-    bool ok = sites || host_fail(error, error_size, "no memory for %u edges that drip", from->max_sites);
-    const uint32_t count = ok ? find(s, sites, error, error_size) : UINT32_MAX;
+    tool_drips *d = s->drips = calloc(1, sizeof *d);
+    if (!d)
+        return host_fail(error, error_size, "no memory for edges that drip");
+    d->splash = splash;
+    d->room = scene_splash_of(s->scene)->drips.max_sites;
+    d->sites = malloc(d->room * sizeof *d->sites);
+    d->at_rest = malloc(d->room * sizeof *d->at_rest);
+    if (!d->sites || !d->at_rest)
+        return host_fail(error, error_size, "no memory for %u edges that drip", d->room);
+    if (s->drip_edges)
+        d->standing = find(s, d->sites, error, error_size);
     host_drip_edges_end(s->drip_edges);
     s->drip_edges = NULL;
-    ok = ok && count != UINT32_MAX;
-    if (ok && splash)
-        ok = shot_ok(s, virga_splash_set_drips(splash, sites, count), "setting the edges that drip", error, error_size);
-    free(sites);
-    return ok;
+    d->count = d->standing;
+    return d->standing != UINT32_MAX && send(s, error, error_size);
+}
+
+void tool_drips_close(shot *s)
+{
+    if (!s->drips)
+        return;
+    free(s->drips->sites);
+    free(s->drips->at_rest);
+    free(s->drips);
+    s->drips = NULL;
+}
+
+/* ---- what moves */
+
+uint32_t tool_drips_add_model(shot *s, const host_mesh *mesh, const host_vertex *vertices, const uint32_t *indices,
+                              double ground_m, uint32_t *first, char *error, size_t error_size)
+{
+    tool_drips *d = s->drips;
+    uint32_t found = 0;
+    if (!d || !scene_splash_of(s->scene)->drips.moving)
+        return 0;
+    *first = d->count;
+    const uint32_t room = d->room - d->count;
+    const uint32_t count = host_drip_model_find(mesh, vertices, indices, ground_m, d->at_rest + d->count, room, &found);
+    if (count == UINT32_MAX) {
+        host_fail(error, error_size, "no memory for the edges of %s that drip", mesh->path);
+        return UINT32_MAX;
+    }
+    if (found > count)
+        host_warn(&s->device, "splash.drips: %u places of %s drip, and max_sites has room for %u: the others do not",
+                  found, mesh->path, count);
+    memcpy(d->sites + d->count, d->at_rest + d->count, count * sizeof *d->sites);
+    d->count += count;
+    return count;
+}
+
+void tool_drips_move(shot *s, uint32_t first, uint32_t count, const float transform[12], const float before[12],
+                     double apart_s)
+{
+    tool_drips *d = s->drips;
+    if (!count)
+        return;
+    host_drip_model_move(d->at_rest + first, count, transform, before, apart_s, d->sites + first);
+    d->moved = true;
+}
+
+bool tool_drips_send(shot *s, char *error, size_t error_size)
+{
+    if (!s->drips || !s->drips->moved)
+        return true;
+    s->drips->moved = false;
+    return send(s, error, error_size);
 }
