@@ -114,6 +114,25 @@ averages |
            exit !(NF == 4 && $1 < 0.5 * $2 && $3 < 0.5 * $4 && $2 < 1.2 * $4 && $2 > 0.8 * $4) }' ||
     fail "the box is not mirrored, or the road is not as bright as the scene's"
 
+# ---- a dark wall, and a board in the air before it: below the board a ray comes to the wall where the board hides it.
+# It is as dark there as beside it, though the sky behind the wall is bright
+printf '%s\n' 'mtllib world.mtl' 'usemtl asphalt' 'v -9 0 2' 'v 9 0 2' 'v 9 0 -9' 'v -9 0 -9' 'f 1 2 3 4' \
+    'usemtl dark' 'v -9 0 -9' 'v 9 0 -9' 'v 9 3 -9' 'v -9 3 -9' 'f 5 6 7 8' \
+    'v -0.3 0.4 -5' 'v 0.3 0.4 -5' 'v 0.3 1.7 -5' 'v -0.3 1.7 -5' 'f 9 10 11 12' >"$work/wall.obj"
+printf '%s\n' 'newmtl dark' 'Kd 0.01 0.01 0.01' >>"$work/world.mtl"
+sed 's/world.obj/wall.obj/' "$work/world.yaml" >"$work/wall.yaml"
+sed 's/^meshes.*/footage: {ground: depth, light: scene}/' "$work/world.yaml" >"$work/hidden.yaml"
+draw wall board --frames 1 --layers beauty,depth --set ground.on=false --set rain.rate_mm_h=0 --samples 4
+draw hidden below --plate "$work/board/frame.0001.exr" --depth "$work/board/frame.0001.exr" --frames 1 \
+    --layers beauty,wetness --set rain.rate_mm_h=0 --set splash.on=false --set ground.start_water_mm=3
+means=()
+for cut in 6x4+77+62 6x4+110+62; do
+    means+=("$work/below/frame.0001.exr" --ch G -d float --cut "$cut" --printstats)
+done
+oiiotool "${means[@]}" >"$work/log"
+averages | awk '{ print "below the board", $1, "beside it", $2; exit !(NF == 2 && $1 < 1.5 * $2 && $1 > 0.5 * $2) }' ||
+    { cat "$work/log"; fail "below a board the sky shines through a wall"; }
+
 # ---- a camera that turns and moves on: the ground that it sees last is wet, too
 turned='{fov_deg: 50, keys: [{position_m: [0, 1.5, 0], look_at_m: [0, 1.2, -5]},
     {time_s: 0.2, position_m: [2.5, 1.5, -1], look_at_m: [6.5, 1.2, -3]}]}'

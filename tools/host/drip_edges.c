@@ -229,8 +229,8 @@ static void begin_at_borders(flood *f)
     }
 }
 
-/* Water at an edge hangs below it. Where the edge itself slopes, drops run along it to where it is lowest: the end of an
- * umbrella's rib, a corner of an awning. What holds a drop of d on a wet edge is surface tension times d times the
+/* Water at an edge hangs below it. Where the edge itself slopes, drops run along it to where it is lowest: the end of
+ * an umbrella's rib, a corner of an awning. What holds a drop of d on a wet edge is surface tension times d times the
  * difference of the cosines of its contact angles, some 0.17 for 10 degrees of hysteresis (an estimate). Against its
  * weight pi/6 rho g d^3 that is 0.073 x 0.17 x 6 / (pi 1000 g d^2) of it: 0.15 for 4 mm, 0.27 for 3 mm. */
 static void run_along_edge(flood *f, uint32_t cell, const uint32_t *beside, uint32_t count)

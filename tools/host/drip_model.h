@@ -6,8 +6,8 @@
 
 #include "mesh.h"
 
-/* Finds up to `capacity` places of a model at rest, those with the largest catchments if there are more, and *found gets
- * the number of all. Positions are the model's own; the ground is a level plane at `ground_m`. Edges are those of
+/* Finds up to `capacity` places of a model at rest, those with the largest catchments if there are more, and *found
+ * gets the number of all. Positions are the model's own; the ground is a level plane at `ground_m`. Edges are those of
  * drip_edges.h. From there water runs down the model's side as far as it goes, so a car drips from its sills and a coat
  * from its hem. Returns the number of places, or UINT32_MAX: no memory. */
 uint32_t host_drip_model_find(const host_mesh *mesh, const host_vertex *vertices, const uint32_t *indices,
