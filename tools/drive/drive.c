@@ -16,7 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEAR_ENOUGH_M 60 /* farther occluders have no visible effect on the rain */
+#define PLACE_S       0.5f /* in which the light of a place becomes that of the next */
+#define PLACE_SHARE   0.5f /* of it; the rest is the whole sky's. 1, as a camera records it, has less haze */
+#define NEAR_ENOUGH_M 60   /* farther occluders have no visible effect on the rain */
 
 /* Turns an error of Virga into one line that names what failed. The log has the reason. Warnings are not errors. */
 static bool fine(drive *d, virga_result result, const char *doing)
@@ -228,7 +230,7 @@ static bool set_rate(drive *d)
     rain.light_gain = 2;
     rain.walls.start_h = 1;  /* walls are wet from that hour as well */
     rain.near_fade_m = 1.6f; /* hides nearer drops, so that none falls inside the car */
-    rain.lighting = d->lighting;
+    rain.lighting = d->place;
     return fine(d, virga_rain_set(virga_scene_rain(d->rain), &rain), "rain");
 }
 
@@ -283,6 +285,23 @@ static void light_up(drive *d)
         lamp->cos_inner = head ? 0.985f : 0.5f;
         lamp->cos_outer = head ? 0.87f : 0;
     }
+}
+
+/* Between houses drops show their fronts as well as the sky. Found from heights for the camera in each frame, and eased,
+ * as it jumps where one passes a corner. A host with light probes takes those. */
+static void light_place(drive *d, double dt_s)
+{
+    const float part = d->placed ? 1 - expf(-(float)dt_s / PLACE_S) : 1;
+    float now[9][3], before[9][3];
+    place_light(&d->heights, d->environment.sh, d->camera.position_m, now);
+    memcpy(before, d->place.environment_sh, sizeof before);
+    d->place = d->lighting;
+    for (int k = 0; k < 9; k++)
+        for (int c = 0; c < 3; c++) {
+            const float sky = d->environment.sh[k][c], wanted = sky + PLACE_SHARE * (now[k][c] - sky);
+            d->place.environment_sh[k][c] = before[k][c] + part * (wanted - before[k][c]);
+        }
+    d->placed = true;
 }
 
 /* Occluders keep rain off, get wet and have splashes: all meshes nearby, and the moving car. */
@@ -442,7 +461,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
         frame.ripple_center_m[axis] = d->car.position_m[axis] - 3.0 * (double)d->car.axes[6 + axis];
     }
     if (!fine(d, virga_frame_begin(d->context, d->device.frame, d->device.completed), "frame") ||
-        !fine(d, virga_scene_lighting_set(d->rain, &d->lighting), "light") ||
+        !fine(d, virga_scene_lighting_set(d->rain, &d->place), "light") ||
         !fine(d, virga_scene_record(d->rain, cmd, &frame), "step"))
         return false;
 
@@ -491,6 +510,7 @@ static bool run_frame(drive *d, double dt_s, bool keep)
     move_camera(d, d->has_last_camera ? dt_s : 0);
     move_focus(d, dt_s);
     light_up(d);
+    light_place(d, dt_s);
     put_wipers(d);
     host_mesh_move(cmd, &d->wipers, d->boxes.vertices);
     if (!fine(d, virga_glass_set(virga_scene_glass(d->rain, 0), &d->glass), "wipers") || !record(d, cmd, dt_s))
@@ -536,6 +556,7 @@ static bool run(drive *d)
         return false;
     car_place(&d->car, &d->track, d->chosen.start_m);
     light_up(d);
+    d->place = d->lighting;
     bind_maps(d);
     if (!set_rate(d) || !attach(d) || !create_lens(d))
         return false;

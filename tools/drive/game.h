@@ -9,6 +9,7 @@
 
 #include "boxes.h"
 #include "car.h"
+#include "place.h"
 #include "stage.h"
 
 #define PANE_POINTS   33  /* along each side of the windshield's grid */
@@ -45,7 +46,8 @@ typedef struct drive {
     stage stage;
     host_environment environment;
     host_mesh street, blocks, body, wipers;
-    boxes boxes; /* of the wipers at their current angles */
+    boxes boxes;           /* of the wipers at their current angles */
+    place_heights heights; /* of the street, for the light of a place */
     track track;
     car car;
     car_keys keys;
@@ -66,7 +68,9 @@ typedef struct drive {
     virga_scene *rain;
     virga_target *target;
     virga_lens *lens;
-    virga_lighting lighting;
+    virga_lighting lighting; /* of the drawn world: the sky, and lamps */
+    virga_lighting place;    /* of the water: the same lamps, and what is around the camera */
+    bool placed;             /* that was found before */
     virga_glass_settings glass;
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];

@@ -43,6 +43,8 @@ static bool load_street(drive *d)
     uint32_t *indices = NULL;
     const bool ok = host_mesh_load_kept(&d->device, d->chosen.model, NULL, &d->street, &vertices, &indices, d->error,
                                         sizeof d->error) &&
+                    (place_heights_make(&d->street, vertices, indices, &d->heights) ||
+                     host_fail(d->error, sizeof d->error, "no memory for the heights of the street")) &&
                     find_drips(d, vertices, indices) && stage_add(&d->stage, &d->street, d->error, sizeof d->error);
     free(vertices);
     free(indices);
@@ -132,4 +134,5 @@ void unload_world(drive *d)
     if (d->environment.sky.image)
         host_environment_destroy(&d->device, &d->environment);
     track_free(&d->track);
+    place_heights_free(&d->heights);
 }
