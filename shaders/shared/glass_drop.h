@@ -25,7 +25,7 @@ typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
 
 #define VIRGA_GLASS_MOMENTUM 8 /* nl mm/s: the unit in which momenta are summed */
 
-/* One drop, 88 bytes. Positions on the pane are in metres, u to the right and v up, seen from outside. (0, 0) is the
+/* One drop, 100 bytes. Positions on the pane are in metres, u to the right and v up, seen from outside. (0, 0) is the
  * pane's lower left corner. */
 struct virga_glass_drop_gpu {
     float position[2];          /* m, centre at the newest tick, where it is drawn */
@@ -34,8 +34,7 @@ struct virga_glass_drop_gpu {
     uint water_nl;              /* nl (1e-9 l) */
     uint kind;                  /* VIRGA_GLASS_... */
     uint cell;                  /* (drop) its cell: column + row x columns */
-    /* (drop) the cell that it came from; at rest also that of much water that it merged with */
-    uint from_cell;
+    uint from_cell;             /* (drop) the cell that it came from */
     float progress_m;     /* (drop) m, distance covered towards the next cell */
     float tail_spacing_m; /* (drop) m, distance since it last left a drop behind */
     float age_s;          /* s, since it landed or was left behind */
@@ -47,12 +46,16 @@ struct virga_glass_drop_gpu {
     int merged_nl_10um[2];  /* offset of that water from this drop, weighted by its amount: nl x 10 um */
     uint target;            /* (drop) the cell that it enters in this round; VIRGA_GLASS_NONE: it stays */
     uint absorbed_by;       /* (drop) slot of the drop that absorbs it, or VIRGA_GLASS_NONE */
+    /* (drop) its outline, see outline.glsl: strain and tail, two snorm16 each, as they were in a tick */
+    uint strain;
+    uint tail;
+    uint outline_tick;
 };
 
 #define VIRGA_GLASS_NONE 0xffffffffu
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_glass_drop_gpu, 88);
+VIRGA_ASSERT_SIZE(virga_glass_drop_gpu, 100);
 VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, water_nl, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, target, 80);
 #undef uint

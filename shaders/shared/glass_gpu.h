@@ -256,7 +256,7 @@ struct virga_glass_seed_gpu {
     uint kind;
 };
 
-/* A two-dimensional metaball of the height map, 36 bytes. */
+/* A two-dimensional metaball of the height map, 44 bytes. */
 struct virga_glass_ball_gpu {
     float middle[2]; /* m, centre on the pane, displaced as texels are (pinning.glsl) */
     float radius_m;  /* m, where a single ball has the density 0.5; its water has the height of a spherical cap */
@@ -265,6 +265,9 @@ struct virga_glass_ball_gpu {
     float sag[2];  /* the height is multiplied by 1 + dot(sag, offset / radius): thicker on that side */
     float peak;    /* density at its centre: 1; less if it is hardly larger than a texel; 0: no shape */
     uint tiles[2]; /* tiles that it touches along u and v: first | count << 16 */
+    /* its outline is an ellipse: with s the logarithm of its length over its width, and p the angle of its length from
+     * u towards v, -sinh s cos 2p and -sinh s sin 2p */
+    float stretch[2];
 };
 
 #ifndef VIRGA_GLSL
@@ -273,7 +276,7 @@ VIRGA_ASSERT_SIZE(virga_glass_node_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_glass_blade_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_glass_breath_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
-VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 36);
+VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 44);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 336);

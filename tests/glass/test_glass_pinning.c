@@ -1,5 +1,6 @@
-/* test_glass_pinning.c - outlines of drops on uneven glass: displaced as the formula says, with the area and the water
- * of round drops; longer along gravity; and the tails of drops that have stopped. */
+/* test_glass_pinning.c - outlines of drops: displaced on uneven glass as the formula says, with the area and the water
+ * of round drops; longer along gravity; one ellipse where two drops met, which becomes round; and tails of drops that
+ * run, which are gone when they have stopped. */
 #include "glass_ball_fixture.h"
 #include "glass_fixture.h"
 
@@ -25,17 +26,20 @@ static void displaced(const shot *s, double u, double v, double out[2])
         }
 }
 
-/* The density (Goto et al., faded from 4/3 radii on) of drops on an upright pane: ellipses between displaced points. */
-static double density_at(const shot *s, const ball *balls, int count, double u, double v)
+/* The density (Goto et al., faded from 4/3 radii on) of drops on an upright pane: ellipses between displaced points.
+ * `strain`, of all of them, is added to what gravity does: both are vectors of twice the angle. */
+static double density_at(const shot *s, const ball *balls, int count, const double strain[2], double u, double v)
 {
     double point[2], sum = 0;
     displaced(s, u, v, point);
     for (int i = 0; i < count; i++) {
         const double r = balls[i].radius, bond = 998.2 * 9.80665 * 4 * r * r / 0.0728;
-        const double longer = sqrt(1 + 0.096 * bond * (double)s->settings.pinning);
+        const double sum_x = strain[0] - log(1 + 0.096 * bond * (double)s->settings.pinning), sum_y = strain[1];
+        const double angle = 0.5 * atan2(sum_y, sum_x), longer = exp(0.5 * hypot(sum_x, sum_y));
         double middle[2];
         displaced(s, balls[i].middle[0], balls[i].middle[1], middle);
-        const double x = (point[0] - middle[0]) / r * longer, y = (point[1] - middle[1]) / r / longer,
+        const double du = (point[0] - middle[0]) / r, dv = (point[1] - middle[1]) / r;
+        const double x = (du * cos(angle) + dv * sin(angle)) / longer, y = (dv * cos(angle) - du * sin(angle)) * longer,
                      x2 = x * x + y * y;
         const double t = fmin(fmax((x2 / 4 - 4.0 / 9) * 9 / 5, 0), 1);
         sum += (1 - t * t * (3 - 2 * t)) / (1 + x2 * x2);
@@ -43,8 +47,25 @@ static double density_at(const shot *s, const ball *balls, int count, double u, 
     return sum;
 }
 
+static uint32_t packed(double x, double y, double unit)
+{
+    return ((uint32_t)lround(x / unit * 32767) & 0xffff) | (uint32_t)lround(y / unit * 32767) << 16;
+}
+
+static void unpack(uint32_t word, double unit, double out[2])
+{
+    out[0] = (int16_t)(word & 0xffff) / 32767.0 * unit;
+    out[1] = (int16_t)(word >> 16) / 32767.0 * unit;
+}
+
+/* As in outline.glsl. */
+#define MAX_STRAIN 1.2
+#define LINE_M_S   0.02
+#define HELD       0.2
+
 /* Every texel to 0.01 of density, which is 1 per radius steep at the rim: a hundredth of a radius. Over the
- * borders of tiles too, which a ball reaches farther here. */
+ * borders of tiles too, which a ball reaches farther here. Round drops, then ones that have just merged, in different
+ * directions. */
 static void the_map_is_that_of_displaced_points(void **state)
 {
     (void)state;
@@ -52,14 +73,21 @@ static void the_map_is_that_of_displaced_points(void **state)
     ball balls[BALLS];
     open_small(&s);
     s.settings.compress = false;
-    for (int i = 1; i <= 2; i++) {
-        s.settings.pinning = 0.5f * (float)i;
+    for (int i = 0; i < 4; i++) {
+        static const double merged[4][2] = {{0, 0}, {0, 0}, {0.9, 0.5}, {-0.3, -0.8}};
+        const double size = hypot(merged[i][0], merged[i][1]), held = HELD * (1 - 0.5 * (1 + i % 2));
+        const double share = 1 - held / fmax(size, HELD), strain[2] = {merged[i][0] * share, merged[i][1] * share};
+        s.settings.pinning = 0.5f * (float)(1 + i % 2);
         put_balls(&s, balls, BALLS);
+        for (int k = 0; k < BALLS; k++) {
+            s.drops[k].strain = packed(merged[i][0], merged[i][1], MAX_STRAIN);
+            s.drops[k].outline_tick = s.glass->last_tick;
+        }
         shot_draw(&s, false);
         assert_int_equal(s.ball_count, BALLS);
         for (uint32_t k = 0; k < s.columns * s.rows; k++) {
             const double u = (k % s.columns + 0.5) * 0.096 / s.columns, v = (k / s.columns + 0.5) * 0.064 / s.rows;
-            const double expected = density_at(&s, balls, BALLS, u, v);
+            const double expected = density_at(&s, balls, BALLS, strain, u, v);
             if (fabs((double)s.map[4 * k] - expected) > 0.01)
                 fail_msg("pinning %g at %g, %g: density %g, expected %g", (double)s.settings.pinning, u, v,
                          (double)s.map[4 * k], expected);
@@ -129,63 +157,133 @@ static void outlines_differ_and_hold_the_same_water(void **state)
     shot_close(&s);
 }
 
-/* ---- tails */
+/* ---- what changes by itself */
 
-/* Balls of one drop, which may have come from a cell above it. */
-static double highest_ball(shot *s, uint32_t cells_above, double *water)
+/* One ball of a drop that merged so many ticks ago. */
+static virga_glass_ball_gpu ball_after(shot *s, uint32_t ticks, uint32_t strain, uint32_t tail, double *water)
 {
     shot_forget(s);
     virga_glass_drop_gpu *drop = shot_drop(s, 0.049, 0.031, shot_water(s, 2e-3));
-    drop->cell = 24 + 15 * s->glass->columns;
-    drop->from_cell = drop->cell + cells_above * s->glass->columns;
+    drop->strain = strain;
+    drop->tail = tail;
+    drop->outline_tick = s->glass->last_tick - ticks;
     const ball whole = ball_of(s, drop);
     shot_draw(s, false);
-    double highest = 0;
+    uint32_t largest = 0;
     *water = 0;
     for (uint32_t k = 0; k < s->ball_count; k++) {
         *water += pow((double)s->balls[k].radius_m / whole.radius, 3);
-        highest = fmax(highest, (double)s->balls[k].middle[1]);
+        largest = s->balls[k].radius_m > s->balls[largest].radius_m ? k : largest;
     }
-    return highest;
+    return s->balls[largest];
 }
 
-static void what_has_stopped_keeps_a_tail_with_its_water(void **state)
+/* The strain goes to what the glass holds, 0.2 at a pinning of 1, as exp(-t v / a). The area, and with it the water of
+ * the paraboloid over it, stays: the ellipse has the determinant 1 by its form. */
+static void what_has_merged_becomes_round(void **state)
+{
+    (void)state;
+    shot s;
+    double water, last = 1e9;
+    open_small(&s);
+    s.settings.pinning = 1;
+    s.glass->last_tick += 1000;
+    const double bond = 998.2 * 9.80665 * 4 * 2e-3 * 2e-3 / 0.0728, tick_s = s.glass->def.tick_s;
+    for (uint32_t ticks = 0; ticks <= 120; ticks += 6) {
+        const virga_glass_ball_gpu found = ball_after(&s, ticks, packed(1, 0, MAX_STRAIN), 0, &water);
+        const double left = exp(-(ticks * tick_s * LINE_M_S / 2e-3)), strain = HELD + (1 - HELD) * left;
+        const double all = strain - log(1 + 0.096 * bond); /* both along axes */
+        assert_int_equal(s.ball_count, 1);
+        assert_float_equal(water, 1, 1e-5);
+        assert_float_equal(found.stretch[0], -sinh(all), 1e-4);
+        assert_float_equal(found.stretch[1], 0, 1e-4);
+        assert_true(strain < last);
+        last = strain;
+    }
+    REQUIRE(last < HELD + 0.01);
+    shot_close(&s);
+}
+
+static void what_has_stopped_draws_its_tail_in_with_its_water(void **state)
 {
     (void)state;
     shot s;
     double water;
     open_small(&s);
-    s.settings.pinning = 1;
-    const double alone = highest_ball(&s, 0, &water);
-    assert_int_equal(s.ball_count, 1);
-    const double tail = highest_ball(&s, 1, &water);
-    assert_int_equal(s.ball_count, 4);
-    assert_float_equal(water, 1, 1e-5);
-    assert_true(tail > alone + 1e-3);
-    s.settings.pinning = 0;
-    highest_ball(&s, 1, &water);
-    assert_int_equal(s.ball_count, 1);
+    s.glass->last_tick += 1000;
+    for (int i = 0; i < 2; i++) {
+        s.settings.pinning = (float)i;
+        const uint32_t up = packed(0, 0.8, 1);
+        const double head = (double)ball_after(&s, 0, 0, up, &water).middle[1];
+        assert_int_equal(s.ball_count, 4);
+        assert_float_equal(water, 1, 1e-5);
+        double highest = 0;
+        for (uint32_t k = 0; k < 4; k++)
+            highest = fmax(highest, (double)s.balls[k].middle[1]);
+        assert_true(highest > head + 2e-3);
+        ball_after(&s, 120, 0, up, &water);
+        assert_int_equal(s.ball_count, 1);
+        assert_float_equal(water, 1, 1e-5);
+    }
     shot_close(&s);
 }
 
-/* Two drops at rest become one, whose tail points to where the lighter one was. */
-static void what_has_merged_knows_from_where(void **state)
+/* ---- what changes it */
+
+/* Two drops at rest become one, with the ellipse of the second moments of the water of both: by the eigenvalues of the
+ * sum of their matrices, to 1 %, for what lies between two ticks and is no more known. */
+static void what_has_merged_has_the_moments_of_both(void **state)
 {
     (void)state;
     glass_fixture f;
     glass_fixture_open(&f, NULL);
     f.settings.impact_s = 0;
     glass_fixture_land(&f, 0.081, 0.061, 3000);
-    glass_fixture_land(&f, 0.083, 0.063, 2000);
+    glass_fixture_land(&f, 0.083, 0.062, 2000);
     glass_fixture_step(&f, 8, true);
+    const double cap = glass_cap_volume(glass_rest_deg(&f.settings));
+    const double a = cbrt(3e-9 / cap), b = cbrt(2e-9 / cap), d[2] = {0.002, 0.001};
+    const double round = (3 * a * a + 2 * b * b) / 5 / 6, apart = 3 * 2 / 25.0;
+    const double xx = round + apart * d[0] * d[0], yy = round + apart * d[1] * d[1], xy = apart * d[0] * d[1];
+    const double root = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+    const double size = 0.5 * log((0.5 * (xx + yy) + root) / (0.5 * (xx + yy) - root)), twice = atan2(2 * xy, xx - yy);
     uint32_t drops = 0;
     for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
         if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP) {
-            drops++;
+            double strain[2];
+            unpack(f.drops[i].strain, MAX_STRAIN, strain);
             assert_int_equal(f.drops[i].water_nl, 5000);
-            assert_int_equal(f.drops[i].from_cell, 41 + 31 * f.glass->columns);
+            assert_true(f.drops[i].outline_tick > 0 && f.drops[i].outline_tick <= 9);
+            assert_float_equal(strain[0], size * cos(twice), 0.01 * size);
+            assert_float_equal(strain[1], size * sin(twice), 0.01 * size);
+            drops++;
         }
     assert_int_equal(drops, 1);
+    REQUIRE(size > HELD);
+    glass_fixture_close(&f);
+}
+
+/* A drop that runs down has a tail above it and is longer along its way. */
+static void what_runs_has_a_tail_behind_it(void **state)
+{
+    (void)state;
+    glass_fixture f;
+    uint32_t running = 0;
+    glass_fixture_open(&f, NULL);
+    f.settings.affinity = f.settings.meander = 0;
+    glass_fixture_land(&f, 0.081, 0.11, 30000);
+    glass_fixture_step(&f, 16, true);
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP && f.drops[i].kind & VIRGA_GLASS_RUNNING) {
+            double strain[2], tail[2];
+            unpack(f.drops[i].strain, MAX_STRAIN, strain);
+            unpack(f.drops[i].tail, 1, tail);
+            running++;
+            print_message("%.3f m/s: tail %.2f, %.2f, strain %.2f, %.2f\n", (double)f.drops[i].velocity[1], tail[0],
+                          tail[1], strain[0], strain[1]);
+            REQUIRE(tail[1] > 0.3 && fabs(tail[0]) < 0.02 && strain[0] < -0.05 && fabs(strain[1]) < 0.02);
+        }
+    assert_int_equal(running, 1);
     glass_fixture_close(&f);
 }
 
@@ -194,8 +292,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_map_is_that_of_displaced_points),
         cmocka_unit_test(outlines_differ_and_hold_the_same_water),
-        cmocka_unit_test(what_has_stopped_keeps_a_tail_with_its_water),
-        cmocka_unit_test(what_has_merged_knows_from_where),
+        cmocka_unit_test(what_has_merged_becomes_round),
+        cmocka_unit_test(what_has_stopped_draws_its_tail_in_with_its_water),
+        cmocka_unit_test(what_has_merged_has_the_moments_of_both),
+        cmocka_unit_test(what_runs_has_a_tail_behind_it),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

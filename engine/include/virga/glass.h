@@ -426,8 +426,8 @@ typedef struct virga_glass_settings {
 
     /* [0; 1] how firmly uneven glass holds the rims of drops. Their outlines vary, each with the area of its round cap;
      * drops are longer than wide on an inclined pane, by 1 + 0.096 x Bond number at 1 (ElSherbini and Jacobi 2004); and
-     * what has run or merged keeps a part of its tail when it stops. 0: drops at rest are circles. Only the picture
-     * changes, not how drops move. Costs time for each texel with drops. Default that of the kind: 0 (paper), 0.8
+     * what has run or merged, first as long as that made it, stays longer than wide, by 1.2 at 1, some tenths of a
+     * second later. 0: drops at rest are circles. Only the picture changes, not how drops move. Costs time for each texel with drops. Default that of the kind: 0 (paper), 0.8
      * (clean), 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
     float pinning;
 

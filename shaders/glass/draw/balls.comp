@@ -11,6 +11,7 @@
 #include "density.glsl"
 #include "tiles.glsl"
 #include "drop_size.glsl"
+#include "glass/outline.glsl"
 #include "pinning.glsl"
 
 layout(constant_id = 0) const uint MODE = 0u; // 1: small drops are drawn as textures
@@ -24,9 +25,7 @@ layout(scalar, set = 0, binding = 10) readonly buffer List
 layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
 #define SUB_WATER 0.27  // part of a drop's water in its three sub-balls when it lands
-#define TEAR_SPEED 0.03 // m/s at which the tear shape is half formed
-#define TEAR_LEFT 0.45  // part of it that is left, at a pinning of 1, in a drop that has stopped
-#define MIN_TEAR 2.0    // min radius of such a drop (texels)
+#define MIN_TAIL 0.05   // a shorter tail is within the head
 #define WIDER 0.25      // how much farther a ball reaches on displaced glass, at a pinning of 1
 
 shared uint widest, shape_count, entry_count; // of the workgroup
@@ -54,6 +53,14 @@ vec2 sag_at(vec2 middle, float radius)
     return s * min(1.0, 0.6 / max(length(s), 1e-6));
 }
 
+// The strain of a drop on an inclined surface, which is longer than it is wide: by 1 + 0.096 x its
+// Bond number (ElSherbini and Jacobi 2004). That number, density x gravity along the pane x diameter^2 / surface
+// tension, is 32 x sag x height over radius.
+vec2 pinned_strain(vec2 sag)
+{
+    return strain_along(sag, log(1.0 + 0.096 * 32.0 * look.cap_height * look.pinning * length(sag)));
+}
+
 // A drop that has just landed: three sub-balls around the main one, which flow into it (section 4.7). All are caps, so
 // radii go with the cube root of the water. Their shares, distances and angles are random, so two may look like one;
 // with equal ones every splat would look like a clover leaf.
@@ -74,32 +81,33 @@ void shape_landing(float t, uint random)
     sub_peak = min(4.0 * (1.0 - t), 1.0);
 }
 
-// A tear: smaller balls behind the drop, farther the more of a tear it is. Together they hold its water.
-void shape_tear(vec2 behind, float share)
+// A tear or, with a tail that is not straight behind, a comma: smaller balls behind the drop, farther the more of a tear
+// it is. Together they hold its water.
+void shape_tear(vec2 behind, vec2 tail)
 {
+    const float share = length(tail);
     const vec3 sizes = share * vec3(0.80, 0.60, 0.42);
     const vec3 distances = (0.35 + 0.65 * share) * vec3(0.75, 1.45, 2.05);
     const float head = radii[0] / pow(1.0 + dot(sizes, sizes * sizes), 1.0 / 3.0);
     radii[0] = head;
     for (int i = 0; i < 3; i++) {
-        middles[i + 1] = middles[0] + behind * (head * distances[i]);
+        const vec2 towards = mix(behind, tail / share, float(i + 1) / 3.0);
+        middles[i + 1] = middles[0] + towards * (head * distances[i] / max(length(towards), 0.2));
         radii[i + 1] = head * sizes[i];
     }
 }
 
-// A running drop is more of a tear the faster it runs. The rear of one that has stopped stays where the glass holds it:
-// behind the drop, or where water came from that it merged with.
-void shape_moved(virga_glass_drop_gpu drop, bool runs)
+// The drop's outline as it is at the drawn time. Returns its strain.
+vec2 shape_moved(virga_glass_drop_gpu drop, bool runs)
 {
-    const vec2 velocity = vec2(drop.velocity[0], drop.velocity[1]);
-    const float speed = length(velocity);
-    const ivec2 cell = ivec2(drop.cell % look.pane.columns, drop.cell / look.pane.columns),
-                from = ivec2(drop.from_cell % look.pane.columns, drop.from_cell / look.pane.columns);
-    const vec2 apart = vec2(from - cell) * look.pane.cell_m;
-    const float rest = look.pinning * TEAR_LEFT * smoothstep(0.2, 0.8, length(apart) / max(radii[0], 1e-6));
-    const float share = runs ? max(speed / (speed + TEAR_SPEED), look.pinning * TEAR_LEFT) : rest;
-    if (share > 0.0)
-        shape_tear(runs ? -velocity / speed : normalize(apart), share);
+    const float age_s = max(float(look.tick - drop.outline_tick) * look.tick_s + look.late_s, 0.0);
+    const float left = outline_left(age_s, radii[0]);
+    const vec2 tail = unpack_tail(drop.tail) * left, velocity = vec2(drop.velocity[0], drop.velocity[1]);
+    if (length(tail) > MIN_TAIL)
+        shape_tear(runs ? -normalize(velocity) : normalize(tail), tail);
+    const vec2 strain = strain_left(unpack_strain(drop.strain), left);
+    const float size = length(strain); // what is held is less where the glass holds less
+    return strain * (1.0 - (1.0 - look.pinning) * min(size, HELD_STRAIN) / max(size, 1e-6));
 }
 
 void count_tiles(uvec2 reached)
@@ -120,8 +128,10 @@ float mist_of(uint i)
 }
 
 // `left`: part of the drop's shape that is drawn; a texture shows the rest.
-void emit_balls(vec2 sag, float whole, float left)
+void emit_balls(vec2 sag, vec2 strain, float whole, float left)
 {
+    const float size = length(strain);
+    const vec2 stretch = size > 0.0 ? strain * (-sinh(size) / size) : vec2(0.0);
     // A drop without any shape gives all its mist to one ball; it is spread over a texel anyway.
     const bool as_one = shape_share(whole) == 0.0;
     const float all = mist_of(0u) + mist_of(1u) + mist_of(2u) + mist_of(3u);
@@ -131,10 +141,11 @@ void emit_balls(vec2 sag, float whole, float left)
         const float mist = left * (as_one ? (i == 0u ? all : 0.0) : mist_of(i));
         if (radius > 0.0 && peak + mist > 0.0) {
             const float reach = density_reach() * (1.0 + WIDER * look.pinning);
-            const uvec2 reached = tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, reach));
+            const uvec2 reached = tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, reach, stretch));
             const vec2 at = middles[i] + (look.pinning > 0.0 ? pinned(middles[i]) : vec2(0.0));
             balls[atomicAdd(work.balls, 1u)] = virga_glass_ball_gpu(
-                float[2](at.x, at.y), radius, mist, float[2](sag.x, sag.y), peak, uint[2](reached.x, reached.y));
+                float[2](at.x, at.y), radius, mist, float[2](sag.x, sag.y), peak, uint[2](reached.x, reached.y),
+                float[2](stretch.x, stretch.y));
             atomicAdd(shape_count, peak > 0.0 ? 1u : 0u);
             count_tiles(reached);
             atomicMax(widest, floatBitsToUint(radius));
@@ -168,15 +179,17 @@ void emit_drop(uint slot)
     const bool runs = !particle && !lands && (at.kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8;
     if (lands)
         shape_landing(age / look.impact_s, at.random);
-    const bool held = look.pinning > 0.0 && radius > MIN_TEAR * max(look.texel_m[0], look.texel_m[1]);
-    if (runs || (held && !particle && !lands))
-        shape_moved(at, runs);
+    vec2 strain = vec2(0.0);
+    if (!particle && !lands)
+        strain = shape_moved(at, runs);
+    // Without pinning outlines of balls are circles: see PINNED in height.glsl.
+    strain = look.pinning > 0.0 ? strain + pinned_strain(sag) : vec2(0.0);
     float left = 1.0;
     if (MODE != 0u) {
         const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);
         left = clip.w > 0.0 ? shape_left(relative_size(radius, clip.w)) : 1.0;
     }
-    emit_balls(sag, radius, left);
+    emit_balls(sag, strain, radius, left);
 }
 
 void main()

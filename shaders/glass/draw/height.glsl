@@ -44,7 +44,7 @@ layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIR
 struct Ball {
     vec2 middle, sag;
     float inv_radius, height, peak, mist;
-    float stretch; // 1 - 1 / length^2 over |sag|^2, with the length over the width of a drop
+    vec2 stretch; // of its outline, see virga_glass_ball_gpu
 };
 
 // Not in an array, which would be kept in memory: compilers do not unroll a loop that contains one of unknown length.
@@ -73,11 +73,9 @@ shared vec3 beads[MAX_CELLS * MAX_CELLS * BEADS]; // in any order: sums do not d
 Ball ball_of(uint entry)
 {
     const virga_glass_ball_gpu b = balls[entries[entry]];
-    const vec2 sag = vec2(b.sag[0], b.sag[1]);
-    const float longer = PINNED ? pinned_length(sag) : 1.0; // with the same area
-    const float stretch = PINNED ? (1.0 - 1.0 / (longer * longer)) / max(dot(sag, sag), 1e-12) : 0.0;
-    return Ball(vec2(b.middle[0], b.middle[1]), sag, (PINNED ? sqrt(longer) : 1.0) / b.radius_m,
-                b.radius_m * look.cap_height / unit_m, b.peak, b.mist, stretch);
+    return Ball(vec2(b.middle[0], b.middle[1]), vec2(b.sag[0], b.sag[1]), 1.0 / b.radius_m,
+                b.radius_m * look.cap_height / unit_m, b.peak, b.mist,
+                PINNED ? vec2(b.stretch[0], b.stretch[1]) : vec2(0.0));
 }
 
 // What a ball adds to a texel's sums: V (Chen and Zhang: k), k V, k V z, k K.
@@ -97,8 +95,11 @@ vec4 contributions(Ball ball, vec2 x, float x2, float density)
 void add_to(inout Texel texel, Ball ball)
 {
     const vec2 off = texel.position - ball.middle, x = off * ball.inv_radius;
-    const float along = PINNED ? dot(ball.sag, x) : 0.0;
-    const float x2 = PINNED ? dot(x, x) - ball.stretch * along * along : dot(x, x);
+    const vec2 square = x * x;
+    float x2 = square.x + square.y;
+    if (PINNED) // the squared distance over that of the ellipse's rim
+        x2 = sqrt(1.0 + dot(ball.stretch, ball.stretch)) * x2 + ball.stretch.x * (square.x - square.y) +
+             2.0 * ball.stretch.y * x.x * x.y;
     const vec4 parts = contributions(ball, x, x2, ball.peak * density_at(x2, reach));
     texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(parts * ONE + 0.5) : ivec4(0);
     const vec2 near = max(1.0 - abs(off) / texel_m(), 0.0);
@@ -123,7 +124,8 @@ void add_balls(virga_glass_tile_gpu tile)
         const vec4 sizes = vec4(own_ball.inv_radius, own_ball.height, own_ball.peak, own_ball.mist);
         for (uint i = 0u; i < batch_size; i++) {
             const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
-            add(Ball(e.xy, e.zw, s.x, s.y, s.z, s.w, PINNED ? subgroupShuffle(own_ball.stretch, i) : 0.0));
+            add(Ball(e.xy, e.zw, s.x, s.y, s.z, s.w, 
+                     PINNED ? subgroupShuffle(own_ball.stretch, i) : vec2(0.0)));
         }
         from += gl_SubgroupSize;
         if (from < tile.count)

@@ -106,7 +106,7 @@ void add_beads(ivec2 tile)
     for (uint i = 0u; i < bead_count; i++) {
         const vec3 bead = beads[i];
         add(Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / unit_m, bead_shapes(bead.zz).x, 0.0,
-                 0.0));
+                 vec2(0.0)));
     }
 }
 

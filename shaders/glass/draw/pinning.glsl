@@ -36,10 +36,3 @@ vec2 pinned(vec2 point)
     sum += pinning_waves(point, vec3(-0.087, -0.819, 0.891), vec3(0.996, -0.574, -0.454), 2u, seeds.zxy + 0.71);
     return sum * look.pinning;
 }
-
-// A drop on an inclined surface is longer than it is wide: by 1 + 0.096 x its Bond number (ElSherbini and Jacobi 2004).
-// That number, density x gravity along the pane x diameter^2 / surface tension, is 32 x sag x height over radius.
-float pinned_length(vec2 sag)
-{
-    return 1.0 + 0.096 * 32.0 * look.cap_height * look.pinning * length(sag);
-}

@@ -12,8 +12,9 @@ layout(scalar, set = 0, binding = 18) buffer Work
 
 vec2 tile_m() { return texel_m() * float(TILE); }
 
-// The first and the last tile within `reach_m` of a point. There are none if the last is before the first.
-void tiles_around(vec2 middle, float reach_m, out ivec2 first, out ivec2 last)
+// The first and the last tile within `reach_m` of a point along u and along v. There are none if the last is before the
+// first.
+void tiles_around(vec2 middle, vec2 reach_m, out ivec2 first, out ivec2 last)
 {
     const ivec2 last_tile = ivec2(look.tile_columns, look.tile_rows) - 1;
     first = max(ivec2(floor(clamp((middle - reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), ivec2(0));
@@ -30,7 +31,7 @@ uint tile_number(uvec2 tile) { return tile.x + tile.y * look.tile_columns; }
 // The tiles of a ball, along u and along v: the first | their count << 16. Computed once and kept with the ball: the
 // pass that sizes the tiles' lists and the one that fills them must agree, and two compilations of a formula may round
 // differently.
-uvec2 tiles_reached(vec2 middle, float reach_m)
+uvec2 tiles_reached(vec2 middle, vec2 reach_m)
 {
     ivec2 first, last;
     tiles_around(middle, reach_m, first, last);
@@ -40,7 +41,7 @@ uvec2 tiles_reached(vec2 middle, float reach_m)
 // The tiles that film with a shape on a cell reaches.
 void film_tiles_of(uvec2 cell, out ivec2 first, out ivec2 last)
 {
-    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
+    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, vec2(1.6 * look.pane.cell_m), first, last);
 }
 
 void mark_film_tiles(uvec2 cell)
@@ -71,8 +72,11 @@ void mark_film_tiles_of(uvec2 first_cell, uint cells)
     }
 }
 
-// A ball's reach. Mist is spread over one texel.
-float ball_reach(float radius_m, float density_reach)
+// A ball's reach. Mist is spread over one texel. `stretch`: see virga_glass_ball_gpu; the ellipse whose points x have
+// c |x|^2 + q (x^2 - y^2) + 2 p x y = 1, with c^2 = 1 + q^2 + p^2, ends at sqrt(c - q) along u.
+vec2 ball_reach(float radius_m, float density_reach, vec2 stretch)
 {
-    return max(radius_m * density_reach, max(look.texel_m[0], look.texel_m[1]));
+    const float c = sqrt(1.0 + dot(stretch, stretch));
+    return max(radius_m * density_reach * sqrt(vec2(c - stretch.x, c + stretch.x)),
+               max(look.texel_m[0], look.texel_m[1]));
 }

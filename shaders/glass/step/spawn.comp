@@ -30,6 +30,7 @@ void init_drop(uint slot, virga_glass_seed_gpu seed, vec2 at, uint water, uint i
     drops[slot].id = id;
     drops[slot].random = virga_hash2(id, tick.pane.seed);
     drops[slot].target = drops[slot].absorbed_by = NONE;
+    drops[slot].strain = drops[slot].tail = drops[slot].outline_tick = 0u;
     if (seed.cell != NONE)
         occupants[seed.cell] = slot + 1u;
 }

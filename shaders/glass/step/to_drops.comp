@@ -31,5 +31,6 @@ void main()
     drops[slot].cell = drops[slot].from_cell = drop.target;
     drops[slot].progress_m = 0.0;
     drops[slot].tail_spacing_m = 0.0;
+    drops[slot].strain = drops[slot].tail = drops[slot].outline_tick = 0u;
     drops[slot].kind = VIRGA_GLASS_DROP | VIRGA_GLASS_CHANGED;
 }
