@@ -18,7 +18,7 @@ typedef struct virga_glass_quad_gpu virga_glass_quad_gpu;
 #define VIRGA_GLASS_TILE_ROW   32768 /* max workgroups along x of a dispatch over tiles */
 #define VIRGA_GLASS_MIST_BLOCK 16    /* texels a side of a block of the mist map: one workgroup, one quad */
 /* max radius of a bead in cells: it reaches no farther than the next cell */
-#define VIRGA_GLASS_BEAD_CELLS      0.33f
+#define VIRGA_GLASS_BEAD_CELLS      0.45f
 #define VIRGA_GLASS_BEAD_SEEN       0.75f /* min radius in texels of a bead with a shape */
 #define VIRGA_GLASS_MAX_MIST_TEXELS 8192  /* max texels a side of the mist map */
 /* compression steps; the gathering pass has a variant for at most this many, the usual number */

@@ -11,9 +11,10 @@ layout(local_size_x = 64) in;
 
 bool has_shape(uint number)
 {
-    const float fresh = film_fresh(passed[number]);
-    const vec2 shapes = bead_shapes(bead_radii(number, float(film[number]) * (1.0 - fresh)));
-    return film[number] != 0u && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
+    const uint water = film[number], wetted = passed[number];
+    const float nl = float(water), fresh = film_fresh(water, wetted);
+    const vec2 shapes = bead_shapes(bead_radii(number, nl, film_link(wetted), nl * (1.0 - fresh)));
+    return water != 0u && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
 }
 
 void main()

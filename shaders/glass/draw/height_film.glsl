@@ -7,7 +7,7 @@ float sheet_m(ivec2 cell)
     const ivec2 last = ivec2(look.pane.columns, look.pane.rows) - 1, clamped = clamp(cell, ivec2(0), last);
     const uint number = uint(clamped.x) + uint(clamped.y) * look.pane.columns;
     const uint water = film[number], wetted = passed[number];
-    const float nl = float(water) * film_fresh(wetted) * (WITH_BEADS ? 1.0 - thread_share(water, wetted) : 1.0);
+    const float nl = float(water) * film_fresh(water, wetted) * (WITH_BEADS ? 1.0 - thread_share(water, wetted) : 1.0);
     return cell == clamped ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
 
@@ -87,11 +87,11 @@ void load_beads(ivec2 tile)
             continue;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
         const uint water = film[number], wetted = passed[number];
-        const float fresh = film_fresh(wetted), broken_nl = float(water) * (1.0 - fresh);
-        const vec2 link = film_link(wetted), shapes = bead_shapes(bead_radii(number, broken_nl));
+        const float nl = float(water), fresh = film_fresh(water, wetted), broken_nl = nl * (1.0 - fresh);
+        const vec2 link = film_link(wetted), shapes = bead_shapes(bead_radii(number, nl, link, broken_nl));
         for (uint k = 0u; k < BEADS; k++)
             if (shapes[k] > 0.0)
-                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, link, k, broken_nl);
+                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, nl, link, k, broken_nl);
         load_thread(cell, water, link, fresh);
     }
 }

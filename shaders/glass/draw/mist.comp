@@ -33,8 +33,8 @@ float cell_mist(uvec2 cell, out bool has_shape)
     bool has_water = inside && water != 0u;
     if (MASKED)
         has_water = has_water && (surface[number] & 0x1000000u) != 0u;
-    const float fresh = film_fresh(wetted_tick);
-    const vec2 radii = bead_radii(number, float(water) * (1.0 - fresh)), shapes = bead_shapes(radii);
+    const float nl = float(water), fresh = film_fresh(water, wetted_tick);
+    const vec2 radii = bead_radii(number, nl, film_link(wetted_tick), nl * (1.0 - fresh)), shapes = bead_shapes(radii);
     const float covered = dot(radii * radii, 1.0 - shapes) * 3.14159265 / (look.pane.cell_m * look.pane.cell_m);
     has_shape = has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
     return has_water ? min(covered, 1.0) : 0.0;
