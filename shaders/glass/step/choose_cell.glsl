@@ -127,6 +127,20 @@ void claim_next_cell(uint slot, inout virga_glass_drop_gpu drop)
         run_off(drop);
 }
 
+// Writes what a choice changes. The whole slot would take a register for each of its words.
+void store_choice(uint slot, virga_glass_drop_gpu drop)
+{
+    drops[slot].water_nl = drop.water_nl;
+    drops[slot].kind = drop.kind;
+    drops[slot].progress_m = drop.progress_m;
+    drops[slot].tail_spacing_m = drop.tail_spacing_m;
+    drops[slot].merged_nl = drop.merged_nl;
+    drops[slot].merged_momentum = drop.merged_momentum;
+    drops[slot].merged_nl_10um = drop.merged_nl_10um;
+    drops[slot].target = drop.target;
+    drops[slot].absorbed_by = drop.absorbed_by;
+}
+
 // For an entry of the active list.
 void choose_cell(uint entry)
 {
@@ -153,5 +167,5 @@ void choose_cell(uint entry)
         drop.progress_m = 0.0; // a drop at rest has no direction
     else if (moves)
         claim_next_cell(slot, drop);
-    drops[slot] = drop;
+    store_choice(slot, drop);
 }
