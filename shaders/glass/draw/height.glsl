@@ -64,11 +64,28 @@ Texel texel0;
 
 float unit_m, reach; // heights are divided by the first; distances in radii are below the second
 
-#ifndef SHUFFLE
-shared Ball batch[LANES];
-#endif
 shared uint bead_count, group_bits;
-shared vec3 beads[MAX_CELLS * MAX_CELLS * BEADS]; // in any order: sums do not depend on it
+// Beads in any order: sums do not depend on it. Before them the balls of a batch, BALL_PLACES for each: more shared
+// memory would mean fewer workgroups at once.
+#define BALL_PLACES 4u
+const uint PLACES = WITH_BEADS ? uint(MAX_CELLS * MAX_CELLS * BEADS) : BALL_PLACES * LANES;
+shared vec3 beads[PLACES];
+
+#ifndef SHUFFLE
+void put_ball(uint i, Ball ball)
+{
+    beads[BALL_PLACES * i] = vec3(ball.middle, ball.inv_radius);
+    beads[BALL_PLACES * i + 1u] = vec3(ball.sag, ball.height);
+    beads[BALL_PLACES * i + 2u] = vec3(ball.stretch, ball.peak);
+    beads[BALL_PLACES * i + 3u].x = ball.mist;
+}
+
+Ball ball_from(uint i)
+{
+    const vec3 a = beads[BALL_PLACES * i], b = beads[BALL_PLACES * i + 1u], c = beads[BALL_PLACES * i + 2u];
+    return Ball(a.xy, b.xy, a.z, b.z, c.z, beads[BALL_PLACES * i + 3u].x, c.xy);
+}
+#endif
 
 Ball ball_of(uint entry)
 {
@@ -136,10 +153,10 @@ void add_balls(virga_glass_tile_gpu tile)
         const uint batch_size = min(tile.count - from, LANES);
         barrier();
         if (gl_LocalInvocationIndex < batch_size)
-            batch[gl_LocalInvocationIndex] = ball_of(tile.first + from + gl_LocalInvocationIndex);
+            put_ball(gl_LocalInvocationIndex, ball_of(tile.first + from + gl_LocalInvocationIndex));
         barrier();
         for (uint i = 0u; i < batch_size; i++)
-            add(batch[i]);
+            add(ball_from(i));
     }
 #endif
 }

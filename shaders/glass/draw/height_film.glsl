@@ -15,8 +15,8 @@ bool interpolates_film() { return look.pane.cell_m >= max(look.texel_m[0], look.
 
 #ifndef SHUFFLE
 // The sheet on the cells that a tile's texels lie between: a texel has four of them, and a cell has many texels. Cells
-// are no smaller than texels there, so those of a tile are in SHEETS columns and rows. They are kept in place of beads,
-// which have been added by then: more shared memory would mean fewer workgroups at once.
+// are no smaller than texels there, so those of a tile are in SHEETS columns and rows. They are kept in place of beads
+// and balls, which have been added by then: more shared memory would mean fewer workgroups at once.
 #define SHEETS (TILE + 2)
 #define SHEET(column, row) beads[(column) + (row) * SHEETS].x
 ivec2 sheets_low;
@@ -27,8 +27,7 @@ void load_sheets(ivec2 first)
 #ifndef SHUFFLE
     if (!FILM || !interpolates_film())
         return;
-    if (WITH_BEADS)
-        barrier();
+    barrier();
     sheets_low = ivec2(floor(middle_of(first) / look.pane.cell_m - 0.5));
     const ivec2 span = min(ivec2(texel_m() * float(TILE - 1) / look.pane.cell_m) + 3, ivec2(SHEETS));
     for (int y = int(gl_LocalInvocationID.y); y < span.y; y += LANES / TILE)
