@@ -193,7 +193,8 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
     [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields */
     [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},   /* 33 */
-    [LENS_BIND_COARSE] = {SAMPLED, SEEN},            /* 34 */
+    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},   /* 34 */
+    [LENS_BIND_COARSE_FAR] = {SAMPLED, FRAGMENT},    /* 35 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -209,8 +210,7 @@ static const virga_effect_pass passes[] = {
     {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
     PASS(gather, .forms = LENS_GATHERS),
     PASS(narrow, .forms = LENS_NARROWS),
-    {"lens.coarse", AT(coarse_gather), VIRGA_SPIRV_ROW(lens_coarse_comp), .forms = LENS_NARROWS},
-    PASS(finer, .forms = LENS_NARROWS),
+    PASS(wide, .forms = LENS_NARROWS),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
@@ -230,7 +230,7 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
-#define NARROW_SHARED_BYTES 24640 /* of shared memory, in shaders/lens/narrow.glsl */
+#define NARROW_SHARED_BYTES 24704 /* of shared memory, in shaders/lens/narrow.glsl */
 
 static bool has_memory(const virga_context *context)
 {
@@ -282,7 +282,7 @@ static bool form_used(const void *object, const void *given, const virga_effect_
         return settings->style == VIRGA_LENS_STYLE_PAPER;
     if (member == AT(combine) && lens->def.in_place)
         return false;
-    if (member == AT(narrow) || member == AT(coarse_gather) || member == AT(finer))
+    if (member == AT(narrow) || member == AT(wide))
         return narrow_form_used(lens, lens_way_of(lens, settings), member, form);
     if (member != AT(tile) && member != AT(combine))
         return true;

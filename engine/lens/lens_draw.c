@@ -230,6 +230,15 @@ static virga_bound in_general(const virga_image_2d *image, VkSampler sampler)
     return (virga_bound){.view = image->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
 }
 
+/* One layer of an image; without it, what is bound in its place. */
+static virga_bound one_of(const virga_image_2d *image, uint32_t layer, virga_bound without, VkSampler sampler)
+{
+    if (!image)
+        return without;
+    return (virga_bound){
+        .view = image->layer_views[layer], .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
+}
+
 static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_view *view,
                                  const virga_lens_layer *layers, uint32_t layer_count)
 {
@@ -245,12 +254,10 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
     bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
         lens->def.circles ? out : in_general(lens->blocks, context->nearest);
-    bound[LENS_BIND_FAR] = lens->def.circles ? out
-                                             : (virga_bound){.view = lens->fields->layer_views[VIRGA_LENS_FAR],
-                                                             .image_layout = VK_IMAGE_LAYOUT_GENERAL,
-                                                             .sampler = context->linear};
-    bound[LENS_BIND_COARSE_WRITTEN] = bound[LENS_BIND_COARSE] =
-        lens->coarse ? in_general(lens->coarse, context->linear) : out;
+    bound[LENS_BIND_FAR] = one_of(lens->def.circles ? NULL : lens->fields, VIRGA_LENS_FAR, out, context->linear);
+    bound[LENS_BIND_COARSE_WRITTEN] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
+    bound[LENS_BIND_COARSE_NEAR] = one_of(lens->coarse, VIRGA_LENS_NEAR, out, context->linear);
+    bound[LENS_BIND_COARSE_FAR] = one_of(lens->coarse, VIRGA_LENS_FAR, out, context->linear);
     if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
         bound[LENS_BIND_FOCUS] =
             (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};
@@ -385,14 +392,10 @@ static void record_narrow(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     const bool wide = is_wide(lens, view);
     const uint32_t form =
         shaped | (is_linear(view) ? VIRGA_LENS_NARROW_LINEAR : 0) | (is_alone(lens, view) ? VIRGA_LENS_ALONE : 0);
-    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.narrow");
-    if (wide) {
-        const uint32_t columns = (view->tile_columns + 1) / 2, rows = (view->tile_rows + 1) / 2;
-        virga_dispatch_2d(context, cmd, lens->coarse_gather[form], (columns + TILES - 1) / TILES, rows);
-        virga_compute_barrier(context, cmd);
-    }
-    virga_dispatch_2d(context, cmd, wide ? lens->finer[form] : lens->narrow[form],
-                      (view->tile_columns + TILES - 1) / TILES, view->tile_rows);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, wide ? "lens.wide" : "lens.narrow");
+    const uint32_t side = wide ? 2 : 1; /* of a coarse tile, in tiles */
+    virga_dispatch_2d(context, cmd, wide ? lens->wide[form] : lens->narrow[form],
+                      virga_groups_of(view->tile_columns, TILES * side), virga_groups_of(view->tile_rows, side));
     virga_indirect_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -653,23 +656,20 @@ static virga_result draw_all_tiles(virga_lens *lens, const draw_call *to, uint32
 {
     const bool has_wide = lens->prepared[lens->base.slot].wide;
     const virga_pipeline *const *blended = of_layers(to, LENS_DRAW_TILES, many);
-    const virga_pipeline *const *soft = of_layers(to, LENS_DRAW_SOFT, many);
     const virga_pipeline *const *both = of_layers(to, LENS_DRAW_BOTH, many);
-    const virga_pipeline *const *wide = of_layers(to, LENS_DRAW_WIDE, many);
+    const virga_pipeline *const *soft = of_layers(to, has_wide ? LENS_DRAW_WIDE : LENS_DRAW_SOFT, many);
     virga_result result = virga_pipelines_ready(blended, many ? VIRGA_LENS_TILE_KINDS : 1);
     if (!result)
         result = virga_pipelines_ready(soft, 1);
-    for (int i = 0; i < 2 && has_wide && !result; i++)
-        result = virga_pipelines_ready(i ? wide : both, 1);
+    if (!result && has_wide)
+        result = virga_pipelines_ready(both, 1);
     if (result)
         return result;
     const virga_pass_scope scope = begin_draw(lens, to, lens_draws[LENS_DRAW_TILES].name);
     draw_of_all(lens, to, has_wide ? *both : blended[VIRGA_LENS_TILES_BLURRED], VIRGA_LENS_TILES_BLURRED);
-    if (has_wide)
-        draw_of_all(lens, to, *wide, VIRGA_LENS_TILES_WIDE);
     if (many)
         draw_of_all(lens, to, blended[VIRGA_LENS_TILES_SHARP], VIRGA_LENS_TILES_SHARP);
-    draw_of_all(lens, to, *soft, VIRGA_LENS_TILES_SOFT);
+    draw_of_all(lens, to, *soft, has_wide ? VIRGA_LENS_TILES_WIDE : VIRGA_LENS_TILES_SOFT);
     virga_pass_end(lens->base.context, to->cmd, scope);
     return VIRGA_OK;
 }

@@ -30,7 +30,8 @@ enum {
     LENS_BIND_BLOCKS_WRITTEN,
     LENS_BIND_FAR,
     LENS_BIND_COARSE_WRITTEN,
-    LENS_BIND_COARSE,
+    LENS_BIND_COARSE_NEAR,
+    LENS_BIND_COARSE_FAR,
     LENS_BINDINGS,
 };
 
@@ -70,8 +71,8 @@ struct virga_lens {
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[LENS_SAMPLES], *tile[VIRGA_LENS_LAYERS + 1], *reach,
-        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *coarse_gather[LENS_NARROWS],
-        *finer[LENS_NARROWS], *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
+        *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *wide[LENS_NARROWS],
+        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
         *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)], *paper[2 * (VIRGA_LENS_LAYERS + 1)],
         *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;

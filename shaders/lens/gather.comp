@@ -27,6 +27,8 @@ int row_of(ivec2 texel) { return 0; }
 vec4 sample_in(int row, ivec2 texel) { return texelFetch(samples, inside(texel), 0); }
 float spread_in(int row, ivec2 texel) { return texelFetch(spreads, inside(texel), 0).r; }
 
+#define CORNERS_ARE_READ false
+void write_field(ivec3 at, vec4 value) { imageStore(fields, at, value); }
 #include "gather.glsl"
 
 void main()

@@ -60,11 +60,7 @@ struct gatherer {
 
 // Whether gather_far was done before.
 #ifdef NARROW
-#ifdef COARSE_PASS
-bool is_known(gatherer to) { return !SHAPED && !to.behind && !to.beside; }
-#else
-bool is_known(gatherer to) { return !SHAPED && !to.behind; }
-#endif
+bool is_known(gatherer to) { return !SHAPED && !to.behind && !(COARSE && to.beside); }
 #else
 bool is_known(gatherer to) { return false; }
 #endif
@@ -155,8 +151,8 @@ float far_reach(gatherer to)
 // `trusted`: the sum of the weights, each times its share of being behind.
 field_sum gather_far(gatherer to, inout float trusted)
 {
-#ifdef FINER_PASS
-    const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
+#ifdef WIDE_PASS
+    const float wide = COARSE ? 0.0 : coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
     finer_nearness = all_nearness = 0.0;
 #endif
     field_sum sum = field_sum(vec4(0.0), vec4(0.0));
@@ -180,11 +176,13 @@ field_sum gather_far(gatherer to, inout float trusted)
             float weight = gathered * covers_it / disc_area(max(radius, POINT));
             if (NEAR && to.behind) {
                 weight *= nearness(vec2(apart), max(source.a, 0.0));
-#ifdef FINER_PASS
-                const float coarse = coarseness(source.a * float(STEP));
-                weight *= 1.0 - wide * coarse;
-                all_nearness += gathered * nearness(vec2(apart), 0.0);
-                finer_nearness += (1.0 - coarse) * gathered * nearness(vec2(apart), 0.0);
+#ifdef WIDE_PASS
+                if (FINER) {
+                    const float coarse = coarseness(source.a * float(STEP));
+                    weight *= 1.0 - wide * coarse;
+                    all_nearness += gathered * nearness(vec2(apart), 0.0);
+                    finer_nearness += (1.0 - coarse) * gathered * nearness(vec2(apart), 0.0);
+                }
 #endif
                 trusted += weight * gathered;
             }
@@ -277,20 +275,23 @@ field_sum scene_before(gatherer to, inout vec2 circles, inout field_sum front)
     return sum;
 }
 
-// Draws in place read near fields in tiles that have them, and between them and the rim of the tile beside it.
+// Draws in place read near fields in tiles that have them, and between them and the rim of the tile beside it: or, if
+// they know what is beside (CORNERS_ARE_READ), between them and its corner alone.
 bool near_is_read(ivec2 texel)
 {
     const ivec2 in_tile = texel & (VIRGA_LENS_TILE - 1);
-    return !IN_PLACE || NEAR || any(equal(in_tile, ivec2(0))) || any(equal(in_tile, ivec2(VIRGA_LENS_TILE - 1)));
+    const bvec2 at_rim = bvec2(in_tile.x == 0 || in_tile.x == VIRGA_LENS_TILE - 1,
+                               in_tile.y == 0 || in_tile.y == VIRGA_LENS_TILE - 1);
+    return !IN_PLACE || NEAR || (CORNERS_ARE_READ ? all(at_rim) : any(at_rim));
 }
 
 void store(ivec2 texel, vec4 far, vec4 near, vec4 on)
 {
-    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), far);
+    write_field(ivec3(texel, VIRGA_LENS_FAR), far);
     if (near_is_read(texel))
-        imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), near);
+        write_field(ivec3(texel, VIRGA_LENS_NEAR), near);
     if (ON_SCENE)
-        imageStore(fields, ivec3(texel, VIRGA_LENS_FIRST_LAYER + view.on_scene - 1u), on);
+        write_field(ivec3(texel, VIRGA_LENS_FIRST_LAYER + int(view.on_scene) - 1), on);
 }
 
 // The coarse and the finer field each have a part of what is near at a texel. How much of it is in this one, by the
@@ -338,21 +339,24 @@ float share_in_far(gatherer to)
     return HALVED && !COARSE && to.behind ? 1.0 - smoothstep(POINT, 2.0 * POINT, -to.own) : 0.0;
 }
 
-#ifdef FINER_PASS
-// The coarse pass knows nothing within 4 px to 8 px of the edge of a wide near disc, so that what it fills in there is
+#ifdef WIDE_PASS
+// The coarse field knows nothing within 4 px to 8 px of the edge of a wide near disc, so that what it fills in there is
 // not what is seen beside it. There it is filled in from the finer samples that are not wide, and farther away from the
 // coarse ones. Beside a straight edge, d texels from it, nearness sums up to about 1.3 / d^5: so d is known. A texel of
 // a wide disc behind the focus has the coarse field as well, since draws read between it and those in front of it.
-vec3 fill_of_both(gatherer to, vec3 behind, vec4 filled)
+//
+// Coarse fields are being made by other workgroups now, so it is the draw that adds them: the fourth component says how
+// much of them. No layer needs it for what is near, as all layers are in focus here.
+vec4 fill_of_both(gatherer to, vec3 behind, vec4 filled)
 {
     const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
     if (wide == 0.0)
-        return behind;
+        return vec4(behind, 0.0);
     const float apart = pow(1.3 / max(finer_nearness, 1e-6), 0.2);
     float fine = to.behind ? 1.0 - smoothstep(0.25, 0.75, apart / -to.own) : 0.0; // of how far it looks
     if (to.behind)
         fine *= finer_nearness / max(all_nearness, 1e-6); // where most of what is near is wide, the coarse field has it
-    return mix(behind, mix(coarse_far(to.texel), filled.rgb / max(filled.a, 1e-12), fine), wide);
+    return vec4(mix(behind, fine * filled.rgb / max(filled.a, 1e-12), wide), wide * (1.0 - fine));
 }
 #endif
 
@@ -381,9 +385,7 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
     field_sum far = scene_behind(to, own.rgb, fine, trusted);
     // How far what was found is behind it. As the focus moves, what is there becomes so bit by bit.
     const float found = far.scene.a <= 0.0 ? 0.0 : NEAR && to.behind ? trusted / far.scene.a : 1.0;
-#ifdef FINER_PASS
     const vec4 filled = far.scene;
-#endif
     // Where there is nothing behind, or more than one near sample a texel, the near field is all.
     const float part = part_of(near.scene.a > 0.0 ? circles.x / near.scene.a : 0.0);
     far.scene = behind_near(far.scene, near.scene, own.rgb, part, found);
@@ -397,8 +399,10 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
         behind = open > 1e-4 ? (with_far.rgb + (1.0 - near.scene.a) * behind) / open : own.rgb;
         near.scene -= with_far;
     }
-#ifdef FINER_PASS
-    behind = fill_of_both(to, behind, filled);
+    vec4 stored = vec4(behind, near_circle);
+#ifdef WIDE_PASS
+    if (FINER)
+        stored = fill_of_both(to, behind, filled);
 #endif
-    store(texel, vec4(behind, near_circle), near.scene, on);
+    store(texel, stored, near.scene, on);
 }

@@ -17,18 +17,15 @@
 
 layout(constant_id = 0) const uint FORM = 0u;
 const uint OWN_FORM = FORM & 255u;
-// At a quarter of the resolution, and after a pass that is, see narrow.glsl.
-#ifdef COARSE_PASS
-#define COARSE          true
-#define BY_SCALE(a, b)  a
+// A pass that works at a quarter of the resolution, and then at half of it: see narrow.glsl.
+#ifdef WIDE_PASS
+bool COARSE; // it is at a quarter now
+#define FINER           (!COARSE)
+#define BY_SCALE(a, b)  (COARSE ? a : b)
 #else
 #define COARSE          false
+#define FINER           false
 #define BY_SCALE(a, b)  b
-#endif
-#ifdef FINER_PASS
-#define FINER true
-#else
-#define FINER false
 #endif
 #ifdef NOT_SPECIALISED // a fragment shader
 #define STEP   view.step
@@ -36,7 +33,7 @@ const uint OWN_FORM = FORM & 255u;
 #else
 const bool HALVED = (FORM & VIRGA_LENS_HALVED) != 0u;
 const bool IN_PLACE = (FORM & VIRGA_LENS_IN_PLACE) != 0u;
-const uint STEP = BY_SCALE(4u, HALVED ? 2u : 1u); // as view.step, but for the coarse pass
+#define STEP BY_SCALE(4u, (HALVED ? 2u : 1u)) // as view.step, but for what is coarse
 #endif
 // Texels per pixel, along a side.
 #define TEXELS BY_SCALE(0.25, (HALVED ? 0.5 : 1.0))

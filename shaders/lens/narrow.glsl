@@ -11,7 +11,9 @@
 // discs are narrower than VIRGA_LENS_COARSE_FROM px all comes from half resolution (FINER), and from
 // VIRGA_LENS_COARSE_TO px on all from a quarter, so that nothing pops as a disc grows. A texel in front of the focus
 // spreads its light in shares in both, and a pixel behind the focus or in it mixes both far fields by its own circle.
-// The coarse pass comes first, and tells for each tile of the finer one whether that has anything to do.
+// Both are one pass (WIDE_PASS): a wait would cost more than it does where most of the picture is in focus or wide. A
+// workgroup does its two coarse tiles, COARSE, and then those of the finer tiles in them that have anything to do, two
+// at a time, FINER. So it never needs the coarse fields of others: the draw mixes both.
 //
 // Bytes that have to move, for each pixel of 8 bytes that is out of focus: depth 4, color 8, the far field written and
 // read 2 x 8 / 4 (half resolution) or 2 x 8 / 16 (a quarter), the picture 8. These are 24 bytes or 21, so 3 fills of
@@ -19,10 +21,12 @@
 //
 // A workgroup has two tiles beside each other, and keeps the samples of those that something reaches, and of so much
 // around them as reaches them. Tiles that nothing reaches have an empty rim, which is read with the fields of the tiles
-// beside them; nothing is mixed there.
+// beside them; nothing is mixed there. A draw that has an entry for every tile reads nothing across a side beyond which
+// there is nothing, so ALONE (and FINER) only the corners are empty: each is beyond two sides, which may both have
+// fields.
 // One workgroup per two tiles. Reads: tiles, color, depth, state, aperture. Writes: fields, reaches, lists, and what
 // tiles were told, for the next view; ALONE: fields, lists, state.
-// The includer says COARSE_PASS and FINER_PASS if they are so. In loops a specialisation constant would be a branch.
+// The includer says WIDE_PASS if it is so. In loops a specialisation constant would be a branch.
 #include "lens.glsl"
 #include "pixels.glsl"
 #define SCENE_LINEAR ((OWN_FORM & VIRGA_LENS_NARROW_LINEAR) != 0u)
@@ -38,13 +42,10 @@
 #include "aperture.glsl"
 
 // The largest radius that this pass gathers. FINER cuts samples to it, after it found out which pixels belong together.
-#ifdef FINER_PASS
-#define OWN_MOST min(view.max_radius, float(VIRGA_LENS_FINE))
-#else
-#define OWN_MOST MAX_RADIUS
-#endif
+#define OWN_MOST (FINER ? min(view.max_radius, float(VIRGA_LENS_FINE)) : MAX_RADIUS)
 
 const bool ALONE = (OWN_FORM & VIRGA_LENS_ALONE) != 0u;
+#define CORNERS_ARE_READ (ALONE && !COARSE)
 
 const int TILE = VIRGA_LENS_TILE, TILES = 2; // of a workgroup, beside each other
 const ivec2 REGION = ivec2(TILES * TILE, TILE);
@@ -54,10 +55,10 @@ layout(local_size_x = 16, local_size_y = 8) in; // two pairs of texels each
 const int LANES = 128;
 layout(std430, set = 0, binding = 1) writeonly buffer Written { virga_lens_state_gpu written; };
 layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[]; };
-#ifndef FIELDS_BINDING
-#define FIELDS_BINDING 11
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
+#ifdef WIDE_PASS
+layout(set = 0, binding = 33, rgba16f) uniform writeonly image2DArray coarse_fields;
 #endif
-layout(set = 0, binding = FIELDS_BINDING, rgba16f) uniform writeonly image2DArray fields;
 
 const int MOST = (TILES * TILE + 2 * VIRGA_LENS_FINE) * (TILE + 2 * VIRGA_LENS_FINE); // texels
 // Of a sample: its color, half of it as half floats; its radius, where they would move the edge of a lamp's disc; and a
@@ -68,12 +69,13 @@ shared uvec4 kept[MOST];
 // Of each tile. Words of floats that are not negative are in the same order as the floats.
 shared uint found_near[TILES], found_far[TILES];
 shared bool needs_rim[TILES], has_hard[TILES]; // it is read; a pixel of it is not from the fields alone
-// Of the tiles of the finer pass, in rows: COARSE, what this pass finds, as bits; FINER, what it was told.
+// Of the finer tiles in the coarse ones, in rows: what is found, as bits, and what they are told of it.
 const int FINE_COLUMNS = 2 * TILES, FINE_TILES = 2 * FINE_COLUMNS;
 shared uint needs_fine, has_wide, has_others;
-shared uint told_fine[TILES];
-shared bool is_beside_fine; // something is out of focus in the tiles around, whose disc is not wide
+shared uint told_fine[FINE_TILES];
 
+uvec2 group; // of two tiles
+int first_told; // FINER: of the two tiles, in told_fine
 ivec2 first_texel; // of the tiles, in the work image
 ivec2 kept_first;
 ivec2 kept_size;
@@ -97,19 +99,20 @@ vec4 sample_in(int row, ivec2 texel)
 
 float spread_in(int row, ivec2 texel) { return uintBitsToFloat(kept[row + texel.x].w); }
 
-#ifdef FINER_PASS
-layout(set = 0, binding = 34) uniform sampler2DArray coarse_fields;
-
+#ifdef WIDE_PASS
 float finer_nearness, all_nearness; // of the samples behind a texel: that are not wide, and of all; see fill_of_both
-
-// The coarse far field at a texel.
-vec3 coarse_far(ivec2 texel)
-{
-    const vec2 size = vec2((uvec2(view.columns, view.rows) + 1u) >> 1u);
-    const vec2 at = min(0.5 * (vec2(texel) + 0.5), size - 0.5) / vec2(textureSize(coarse_fields, 0).xy);
-    return textureLod(coarse_fields, vec3(at, VIRGA_LENS_FAR), 0.0).rgb;
-}
 #endif
+
+void write_field(ivec3 at, vec4 value)
+{
+#ifdef WIDE_PASS
+    if (COARSE) {
+        imageStore(coarse_fields, at, value);
+        return;
+    }
+#endif
+    imageStore(fields, at, value);
+}
 
 bool has_near; // circles of confusion from in front of the focus reach the tile
 #define NEAR has_near
@@ -123,8 +126,12 @@ vec4 on_scene_mean(ivec2 texel) { return vec4(0.0); }
 
 const float MARGIN = 2.5; // texels, as in tile.comp
 
-bool is_tile(int i) { return int(gl_WorkGroupID.x) * TILES + i < int(TILE_COLUMNS); }
-uint tile_at(int i) { return gl_WorkGroupID.y * TILE_COLUMNS + gl_WorkGroupID.x * uint(TILES) + uint(i); }
+bool is_tile(int i)
+{
+    return int(group.x) * TILES + i < int(TILE_COLUMNS) && (!FINER || group.y < view.tile_rows);
+}
+
+uint tile_at(int i) { return group.y * TILE_COLUMNS + group.x * uint(TILES) + uint(i); }
 
 void take_told(int i)
 {
@@ -153,14 +160,14 @@ vec2 told_reach(vec2 ends, float farthest)
     return reach;
 }
 
-// COARSE: the tiles of the finer pass that pixels reach whose discs are not all wide, as bits. `from_first`: texels
+// COARSE: the finer tiles that pixels reach whose discs are not all wide, as bits. `from_first`: texels
 // from the first one of the tiles to the middle of the square.
 uint finer_tiles(vec2 from_first, vec2 ends)
 {
     const float wide = 0.25 * VIRGA_LENS_COARSE_TO;
     if (ends.x >= wide || ends.y <= -wide)
         return 0u;
-    const float far = min(max(-ends.x, ends.y), wide) + 0.5 * MARGIN + 0.5; // MARGIN is in texels of that pass
+    const float far = min(max(-ends.x, ends.y), wide) + 0.5 * MARGIN + 0.5; // MARGIN is in finer texels
     const ivec2 low = max(ivec2(floor((from_first - far) * (2.0 / float(TILE)))), ivec2(0));
     const ivec2 high = min(ivec2(floor((from_first + far) * (2.0 / float(TILE)))), ivec2(FINE_COLUMNS, 2) - 1);
     if (any(greaterThan(low, high)))
@@ -169,7 +176,7 @@ uint finer_tiles(vec2 from_first, vec2 ends)
     return (low.y == 0 ? columns : 0u) | (high.y == 1 ? columns << FINE_COLUMNS : 0u);
 }
 
-// COARSE: the tile of the finer pass that a texel is in, as a bit.
+// COARSE: the finer tile that a texel is in, as a bit.
 uint own_tile(ivec2 from_first)
 {
     const ivec2 tile = from_first >> (TILE_BITS - 1);
@@ -290,7 +297,7 @@ void look_at_own(ivec2 at, vec4 radii)
             has_hard[at.x / TILE] = true;
 }
 
-// COARSE: likewise, of a tile of the finer pass, and from the coarse fields alone.
+// COARSE: likewise, of a finer tile, and from the coarse fields alone.
 void look_at_wide(ivec2 at, float least)
 {
     if (least < 0.25 * VIRGA_LENS_COARSE_TO)
@@ -486,23 +493,26 @@ void gather_two(ivec2 texel, vec2 own, float largest, out vec4 sums[2])
 
 bool is_there(ivec2 texel) { return all(lessThan(texel, WORK_SIZE)); }
 
-// FINER: what is behind wide near discs is read across the rim as well.
-void empty(ivec2 texel)
-{
-    imageStore(fields, ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
-#ifdef FINER_PASS
-    imageStore(fields, ivec3(texel, VIRGA_LENS_FAR), vec4(coarse_far(texel), 0.0));
-#endif
-}
-
 void empty_rim(int pair)
 {
     const ivec2 texel = first_of_pair(pair), in_tile = texel & (TILE - 1);
     const bool row = in_tile.y == 0 || in_tile.y == TILE - 1;
     if ((row || in_tile.x == 0) && is_there(texel))
-        empty(texel);
+        write_field(ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
     if ((row || in_tile.x == TILE - 2) && is_there(texel + ivec2(1, 0)))
-        empty(texel + ivec2(1, 0));
+        write_field(ivec3(texel + ivec2(1, 0), VIRGA_LENS_NEAR), vec4(0.0));
+}
+
+// `corner`: of all tiles. FINER: what is behind wide near discs is read there as well, and all of it is coarse.
+void empty_corner(int corner)
+{
+    const ivec2 side = ivec2(corner & 1, corner >> 1 & 1);
+    const ivec2 texel = first_texel + (ivec2(corner >> 2, 0) << TILE_BITS) + side * (TILE - 1);
+    if (!is_there(texel))
+        return;
+    write_field(ivec3(texel, VIRGA_LENS_NEAR), vec4(0.0));
+    if (FINER)
+        write_field(ivec3(texel, VIRGA_LENS_FAR), vec4(0.0, 0.0, 0.0, 1.0));
 }
 
 void gather_both(int pair, vec2 reach)
@@ -541,77 +551,53 @@ void enter(int i, vec2 reach)
             kind = VIRGA_LENS_TILES_SOFT;
     }
     if (FINER) {
-        kind = kind_of_both(told_fine[i], kind);
-        beside |= told_fine[i] & (VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR);
+        const uint told = told_fine[first_told + i];
+        kind = kind_of_both(told, kind);
+        beside |= told & (VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR);
     }
     listed[tile_at(i)] = kind | beside;
 }
 
-// Where the coarse pass leaves words for tiles of the finer one: after the entries.
-uint told_at(uint tile) { return view.tile_columns * view.tile_rows + tile; }
-
-// COARSE: what the finer pass has to know of one of its tiles.
-void tell_finer(int i, vec4 found)
+// COARSE: what is known of a finer tile.
+void tell_finer(int i)
 {
-    const uvec2 tile = gl_WorkGroupID.xy * uvec2(FINE_COLUMNS, 2) + uvec2(i % FINE_COLUMNS, i / FINE_COLUMNS);
-    const vec2 reach = i % FINE_COLUMNS < 2 ? found.xy : found.zw;
-    if (tile.x >= view.tile_columns || tile.y >= view.tile_rows)
-        return;
+    const bool has_near = uintBitsToFloat(found_near[i % FINE_COLUMNS < 2 ? 0 : 1]) > POINT;
     uint told = (needs_fine >> i & 1u) * VIRGA_LENS_NEEDS_FINE | (has_others >> i & 1u) * VIRGA_LENS_HAS_OTHERS;
-    if (reach.x > POINT)
-        told |= VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR;
-    told |= (has_wide >> i & 1u) * VIRGA_LENS_HAS_COARSE;
-    listed[told_at(tile.y * view.tile_columns + tile.x)] = told;
-}
-
-// FINER: the tiles are beside each other, so there are three rows of four.
-void look_beside(int lane)
-{
-    const ivec2 tile = ivec2(gl_WorkGroupID.xy) * ivec2(TILES, 1) + ivec2(lane & 3, lane >> 2) - 1;
-    const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
-    if (lane < 3 * (TILES + 2) && tile == clamp(tile, ivec2(0), size - 1))
-        if ((listed[told_at(uint(tile.y * size.x + tile.x))] & VIRGA_LENS_NEEDS_FINE) != 0u)
-            is_beside_fine = true;
+    told |= has_near ? VIRGA_LENS_HAS_COARSE | VIRGA_LENS_HAS_COARSE_NEAR : 0u;
+    told_fine[i] = told | (has_wide >> i & 1u) * VIRGA_LENS_HAS_COARSE;
 }
 
 void begin(int lane)
 {
-    first_texel = ivec2(gl_WorkGroupID.xy) << ivec2(REGION_BITS, TILE_BITS);
     if (lane < TILES) {
         found_near[lane] = found_far[lane] = 0u;
         has_hard[lane] = false;
         needs_rim[lane] = ALONE;
         needs_fine = has_wide = has_others = 0u;
-        is_beside_fine = false;
-        if (FINER)
-            told_fine[lane] = is_tile(lane) ? listed[told_at(tile_at(lane))] : 0u;
         if (!ALONE && is_tile(lane))
             take_told(lane);
     }
-    if (ALONE && !FINER && lane == 0 && gl_WorkGroupID.xy == uvec2(0u) && view.follow == 0u) {
+    if (ALONE && !FINER && lane == 0 && group == uvec2(0u) && view.follow == 0u) {
         written.focus_inv_m = view.focus_inv_m; // in place of focus.comp
         written.focused = 1u;
     }
     barrier();
-    if (FINER) {
-        look_beside(lane);
-        barrier();
-    }
-    if (ALONE && (!FINER || ((told_fine[0] | told_fine[1]) & VIRGA_LENS_NEEDS_FINE) != 0u))
+    if (ALONE)
         look_around();
-    if (!FINER || is_beside_fine)
-        barrier();
+    barrier();
 }
 
-void main()
+void place(uvec2 at)
 {
-    const int lane = int(gl_LocalInvocationIndex), own = int(gl_LocalInvocationID.x) >> (TILE_BITS - 1);
+    group = at;
+    first_texel = ivec2(group) << ivec2(REGION_BITS, TILE_BITS);
+}
+
+// Two tiles.
+void do_tiles(int lane)
+{
+    const int own = int(gl_LocalInvocationID.x) >> (TILE_BITS - 1);
     begin(lane);
-    if (FINER && !is_beside_fine) {
-        if (lane < TILES && is_tile(lane))
-            enter(lane, vec2(0.0));
-        return;
-    }
     const vec4 found = uintBitsToFloat(uvec4(found_near[0], found_far[0], found_near[1], found_far[1]));
     const bvec2 blurred = bvec2(!is_sharp(found.xy), !is_sharp(found.zw));
     kept_reach = max(max(found.x, found.y), max(found.z, found.w));
@@ -630,13 +616,49 @@ void main()
     for (int pair = 0; pair < 2; pair++) {
         if (own_blurred)
             gather_both(pair, reach);
-        if (rim)
+        if (rim && !CORNERS_ARE_READ)
             empty_rim(pair);
     }
-    if (COARSE) {
-        if (lane < FINE_TILES)
-            tell_finer(lane, found);
-    } else if (ALONE && lane < TILES && is_tile(lane)) {
+    if (!CORNERS_ARE_READ)
+        return;
+    if (lane < 4 * TILES && !blurred[lane >> 2])
+        empty_corner(lane);
+    if (lane < TILES && is_tile(lane))
         enter(lane, lane == 0 ? found.xy : found.zw);
+}
+
+#ifdef WIDE_PASS
+// FINER: whether one of the two tiles has anything to do.
+bool has_work() { return ((told_fine[first_told] | told_fine[first_told + 1]) & VIRGA_LENS_NEEDS_FINE) != 0u; }
+
+// One loop, so that the code is there once. In its first turn it is COARSE.
+void main()
+{
+    const int lane = int(gl_LocalInvocationIndex);
+    for (int two = -1; two < FINE_TILES / TILES; two++) {
+        COARSE = two < 0;
+        first_told = (two & 1) * TILES + (two >> 1) * FINE_COLUMNS;
+        place(COARSE ? gl_WorkGroupID.xy : gl_WorkGroupID.xy * 2u + uvec2(two & 1, two >> 1));
+        if (COARSE || has_work()) {
+            do_tiles(lane);
+            barrier(); // before what it shares is written again
+        } else {
+            if (lane < 4 * TILES)
+                empty_corner(lane);
+            if (lane < TILES && is_tile(lane))
+                enter(lane, vec2(0.0));
+        }
+        if (COARSE) {
+            if (lane < FINE_TILES)
+                tell_finer(lane);
+            barrier();
+        }
     }
 }
+#else
+void main()
+{
+    place(gl_WorkGroupID.xy);
+    do_tiles(int(gl_LocalInvocationIndex));
+}
+#endif

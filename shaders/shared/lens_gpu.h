@@ -51,8 +51,8 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_DEPTHS        2   /* layer: it has a depth image */
 #define VIRGA_LENS_NO_NEAR       4   /* gather: nothing in front of the focus is out of focus */
 #define VIRGA_LENS_LINEAR        1   /* sample: the host's picture is linear light */
-#define VIRGA_LENS_NARROW_LINEAR 2   /* narrow, coarse, finer: likewise */
-#define VIRGA_LENS_ALONE         4   /* narrow, coarse, finer: no pass finds tiles, see shaders/lens/narrow.glsl */
+#define VIRGA_LENS_NARROW_LINEAR 2   /* narrow, wide: likewise */
+#define VIRGA_LENS_ALONE         4   /* narrow, wide: no pass finds tiles, see shaders/lens/narrow.glsl */
 
 /* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
  * read. */
@@ -95,7 +95,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_HAS_FINE        512u  /* it has fields of the work image */
 #define VIRGA_LENS_HAS_COARSE      1024u /* it has coarse fields */
 #define VIRGA_LENS_HAS_COARSE_NEAR 2048u /* and wide circles from in front of the focus reach it */
-/* What the coarse pass leaves for the finer one in the place of another entry: the last two, and */
+/* What is known of a tile from a quarter of the resolution, before it is done at half: the last two, and */
 #define VIRGA_LENS_NEEDS_FINE 1u /* something is out of focus around it whose disc is not wide */
 #define VIRGA_LENS_HAS_OTHERS 2u /* not every pixel comes from the coarse fields */
 

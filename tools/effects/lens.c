@@ -397,7 +397,8 @@ static double model_bytes(const lens_case *row, const pictures *p)
     return COPY_BYTES + tiles + share * (sample + blocks + gather + fields);
 }
 
-static const char *const pass_names[] = {"paper", "sample", "tiles", "blocks", "gather", "narrow", "layers", "combine"};
+static const char *const pass_names[] = {"paper",  "sample", "tiles",  "blocks", "gather",
+                                         "narrow", "wide",   "layers", "combine"};
 #define PASSES (sizeof pass_names / sizeof *pass_names)
 
 /* The passes' own times: the smallest, as other programs on the machine only make them longer. */
