@@ -58,7 +58,7 @@ static void in_the_open_it_is_the_sky_above_and_the_road_below(void **state)
 }
 
 /* In the middle of a yard of 40 x 40 m with walls of 9 m. Towards the angle a the wall is 20 m / max(|cos|, |sin|)
- * away, and hides bands up to the sine s of its height's angle: the integral of 1 - s over all a, in double precision. */
+ * away, and hides bands up to the sine s of its height's angle: the integral of 1 - s over all a, in doubles. */
 static void walls_hide_as_much_as_their_height_says(void **state)
 {
     (void)state;

@@ -287,8 +287,8 @@ static void light_up(drive *d)
     }
 }
 
-/* Between houses drops show their fronts as well as the sky. Found from heights for the camera in each frame, and eased,
- * as it jumps where one passes a corner. A host with light probes takes those. */
+/* Between houses drops show their fronts as well as the sky. Found from heights for the camera in each frame, and
+ * eased, as it jumps where one passes a corner. A host with light probes takes those. */
 static void light_place(drive *d, double dt_s)
 {
     const float part = d->placed ? 1 - expf(-(float)dt_s / PLACE_S) : 1;

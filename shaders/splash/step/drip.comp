@@ -53,8 +53,9 @@ virga_drip_gpu begin_drip(virga_drip_site_gpu site)
     return drip;
 }
 
-// A drop that fell `age_s` before the end of the step. In this short time the air hardly slows it down. From a place that
-// stands it has flown v t ahead of it. One that moves has done so too: at x - v t the drop left it, and is at x now.
+// A drop that fell `age_s` before the end of the step. In this short time the air hardly slows it down. From a place
+// that stands it has flown v t ahead of it. One that moves has done so too: the drop left it at x - v t, and both are
+// at x now.
 void write_drop(uint index, virga_drip_site_gpu site, uint number, float age_s)
 {
     const float diameter_m = diameter_of(site.seed, number), late_s = age_s + tick.handed_late_s;
