@@ -27,6 +27,7 @@
 // One workgroup per two tiles. Reads: tiles, color, depth, state, aperture. Writes: fields, reaches, lists, and what
 // tiles were told, for the next view; ALONE: fields, lists, state.
 // The includer says WIDE_PASS if it is so. In loops a specialisation constant would be a branch.
+#extension GL_EXT_control_flow_attributes : require
 #include "lens.glsl"
 #include "pixels.glsl"
 #define SCENE_LINEAR ((OWN_FORM & VIRGA_LENS_NARROW_LINEAR) != 0u)
@@ -373,9 +374,10 @@ texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float
     if (nearest < -BESIDE) // as much of its light as of the nearest: the other pass has single ones
         before = (before_of(a) + before_of(b) + before_of(c) + before_of(d)) * coarseness(nearest * (1.0 / TEXELS));
     vec3 sum = vec3(0.0);
-    if (SCENE_LINEAR) // all sixteen at once, so that they are waited for once
-        sum = stored_sum(low, more, of_a) + stored_sum(right, more, of_b) + stored_sum(below, more, of_c) +
-              stored_sum(high, more, of_d);
+    // Eight at once, so that they are waited for twice: sixteen would spill registers on some cards.
+    [[dont_unroll]] for (int lower = 0; SCENE_LINEAR && lower < 2; lower++)
+        sum += stored_sum(lower == 0 ? low : below, more, lower == 0 ? of_a : of_c) +
+               stored_sum(lower == 0 ? right : high, more, lower == 0 ? of_b : of_d);
     if (!SCENE_LINEAR || !(max(max(abs(sum.r), abs(sum.g)), abs(sum.b)) <= 65504.0) || isnan(sum.r + sum.g + sum.b))
         sum = light_sum(low, more, of_a) + light_sum(right, more, of_b) + light_sum(below, more, of_c) +
               light_sum(high, more, of_d);

@@ -35,9 +35,9 @@ struct virga_glass_drop_gpu {
     uint kind;                  /* VIRGA_GLASS_... */
     uint cell;                  /* (drop) its cell: column + row x columns */
     uint from_cell;             /* (drop) the cell that it came from */
-    float progress_m;     /* (drop) m, distance covered towards the next cell */
-    float tail_spacing_m; /* (drop) m, distance since it last left a drop behind */
-    float age_s;          /* s, since it landed or was left behind */
+    float progress_m;           /* (drop) m, distance covered towards the next cell */
+    float tail_spacing_m;       /* (drop) m, distance since it last left a drop behind */
+    float age_s;                /* s, since it landed or was left behind */
     /* of the drop of rain; a hash for drops that were left behind. After a merge: the id of the heavier one. */
     uint id;
     uint random;            /* a hash of its own */

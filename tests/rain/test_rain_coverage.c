@@ -239,7 +239,10 @@ static void an_even_environment_gives_its_radiance_times_the_coverage(void **sta
 /* ---- haze */
 
 /* Half of the extinction is light that hits drops; the other half is diffracted, and not lost. */
-static double haze_of(double rate_mm_h) { return 0.5 * virga_rain_extinction(rate_mm_h); }
+static double haze_of(double rate_mm_h)
+{
+    return 0.5 * virga_rain_extinction(rate_mm_h);
+}
 
 /* All drops are below 2 mm, and none of these is drawn one by one. */
 static void rain_of_haze(shot *s)

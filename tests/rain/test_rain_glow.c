@@ -62,8 +62,8 @@ static double lamp_along(const double ray[3])
     return ray[0] * lamp_at[0] + ray[1] * lamp_at[1] + ray[2] * lamp_at[2];
 }
 
-/* Single scattering along a ray from `begins` up to `ends`, by the half of the extinction that hits drops: the other half
- * is diffraction. The lamp is 0.1 m wide, and a pixel half of its own width. */
+/* Single scattering along a ray from `begins` up to `ends`, by the half of the extinction that hits drops: the other
+ * half is diffraction. The lamp is 0.1 m wide, and a pixel half of its own width. */
 static double glow_along(const shot *s, const double ray[3], double begins, double ends)
 {
     const virga_light *lamp = &s->f.settings.lighting.lights[0];
@@ -85,8 +85,8 @@ static double glow_along(const shot *s, const double ray[3], double begins, doub
             out[axis] /= r;
             bent -= out[axis] * ray[axis];
         }
-        sum += goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-k * (t - begins + r)) *
-               (ends - begins) / steps;
+        sum +=
+            goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-k * (t - begins + r)) * (ends - begins) / steps;
     }
     return k * sum * (double)s->f.settings.light_gain * (double)s->f.settings.glow;
 }

@@ -97,8 +97,8 @@ static double way_of(int x)
 }
 
 /* A drop covers its disc, and rain R = N v (pi/6) D^3, so that a metre of it covers N (pi/4) D^2 = 1.5 R / (v D). What
- * is not drawn as streaks is haze, of half of 0.312 R^0.67 per km: as much is diffracted. Both together are all of the rain before the plate, from the
- * camera's near plane on. */
+ * is not drawn as streaks is haze, of half of 0.312 R^0.67 per km: as much is diffracted. Both together are all of the
+ * rain before the plate, from the camera's near plane on. */
 static void check_density(const sums *all)
 {
     const double covered = 1.5 * RATE_MM_H / 3.6e6 / (SPEED_M_S * DIAMETER_M);

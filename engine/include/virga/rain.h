@@ -150,8 +150,8 @@ typedef struct virga_rain_settings {
     /* [0; 4] amplitude of the shape oscillation of large drops. 1 is physical. Default 1. */
     float oscillation;
 
-    /* [0; 8] multiplies the rain's own haze. 1 is physical: half of virga_rain_extinction, as the other half is light that
-     * drops diffract by less than a pixel. Default 1. */
+    /* [0; 8] multiplies the rain's own haze. 1 is physical: half of virga_rain_extinction, as the other half is light
+     * that drops diffract by less than a pixel. Default 1. */
     float haze;
 
     /* [0; 100000] length of haze (m) in front of the sky, where the depth buffer is empty: the distance of what a

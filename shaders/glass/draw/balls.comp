@@ -81,7 +81,7 @@ void shape_landing(float t, uint random)
     sub_peak = min(4.0 * (1.0 - t), 1.0);
 }
 
-// A tear or, with a tail that is not straight behind, a comma: smaller balls behind the drop, farther the more of a tear
+// A tear, or a comma if the tail is not straight behind: smaller balls behind the drop, farther the more of a tear
 // it is. Together they hold its water.
 void shape_tear(vec2 behind, vec2 tail)
 {
