@@ -426,10 +426,9 @@ typedef struct virga_glass_settings {
     float threshold;
 
     /* [0; 1] how firmly uneven glass holds the rims of drops. Their outlines vary, each with the area of its round cap;
-     * drops are longer than wide on an inclined pane, by 1 + 0.096 x Bond number at 1 (ElSherbini and Jacobi 2004); what
-     * has run or merged stays longer than wide, by 1.2 at 1, some tenths of a second later. 0: drops at rest are circles.
-     * Only the picture changes. Costs time for each texel with drops. Default that of the kind: 0 (paper), 0.8 (clean),
-     * 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
+     * drops are longer than wide on an inclined pane, by 1 + 0.096 x Bond number at 1 (ElSherbini and Jacobi 2004), and
+     * by 1.2 at 1 once they ran or merged. 0: drops at rest are circles. Only the picture changes. Costs time for each
+     * texel with drops. Default by kind: 0 (paper), 0.8 (clean), 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
     float pinning;
 
     /* [0; 2] time in which a drop that has landed draws in its three sub-balls (s). Default 0.25. */
