@@ -1,9 +1,9 @@
 // haze.frag - haze: the rain that is too small or too far away to be drawn as drops.
 //
 // A drop that is much wider than a wavelength takes twice the light of its disc out of a ray: what hits it, and as
-// much that is diffracted around it (van de Hulst 1957). Atlas's extinction by rain, 0.312 R^0.67 per km, has both. A drop of
-// 1 mm diffracts by less than a twentieth of a degree. A picture does not lose this light, and is not blurred by a
-// pixel. So haze is half of the extinction: the drops' discs, with which streaks cover the picture too. The glow of
+// much that is diffracted around it (van de Hulst 1957). Atlas's extinction by rain, 0.312 R^0.67 per km, has both. A
+// drop of 1 mm diffracts by less than a twentieth of a degree. A picture does not lose this light, and is not blurred
+// by it. So haze is half of the extinction: the drops' discs, with which streaks cover the picture too. The glow of
 // lamps has the same half.
 //
 // Drops bend the other half by 40 degrees and more: haze shows what is around, and has the light of the streaks that it
