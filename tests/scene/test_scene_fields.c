@@ -127,7 +127,7 @@ static void rain_settings_fields(void **state)
         F(soft_m, 0, 1),
         F(near_fade_m, 0, 5),
         F(oscillation, 0, 4),
-        F(haze, 0, 4),
+        F(haze, 0, 8),
         F(haze_sky_m, 0, 100000),
         F(glow, 0, 100),
         F(streak_min_mm, 0.2, 2),
