@@ -13,6 +13,7 @@ fi
 export VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
 export VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT
 export LP_NUM_THREADS=${LP_NUM_THREADS:-2}
+[ "$LP_NUM_THREADS" = 0 ] || export MALLOC_PERTURB_=0 # see tests/images/same_bytes.sh
 
 render() { # name options...
     local name=$1

@@ -6,6 +6,7 @@
 #ifndef VIRGA_TESTS_EFFECT_FIXTURE_H
 #define VIRGA_TESTS_EFFECT_FIXTURE_H
 
+#include <malloc.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -102,13 +103,16 @@ static inline void effect_device_destroy(void)
 }
 
 /* The number of threads of software Vulkan from the next case on. "0": it runs in the thread of the test. A device
- * reads the number when it is created, so another number needs another device. */
+ * reads the number when it is created, so another number needs another device. With threads, freed memory is not
+ * overwritten: the driver's threads may wait for ever then (see tests/images/same_bytes.sh). */
 static inline void effect_device_set_threads(const char *threads)
 {
     const char *current = getenv("LP_NUM_THREADS");
     if (current && !strcmp(current, threads))
         return;
     setenv("LP_NUM_THREADS", threads, 1);
+    const char *perturb = strcmp(threads, "0") ? "0" : getenv("MALLOC_PERTURB_");
+    mallopt(M_PERTURB, perturb ? atoi(perturb) : 0);
     effect_device_destroy();
     effect_device.messages = 0;
 }
