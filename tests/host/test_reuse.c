@@ -17,6 +17,8 @@ enum { WIDTH = 128, HEIGHT = 96, SAMPLES = 16, SHARE = 4 };
 #define PLANE_ALBEDO 0.5f
 #define POST_ALBEDO  0.1f
 #define POST_M       0.03f /* 0.3 of a pixel at its distance of 8 m */
+#define WALL_ALBEDO  0.3f
+#define BAR_M        0.015f /* 0.2 of a pixel at the wall, 6 m away; so little before it that depth does not tell */
 
 static const host_camera_key keys[2] = {
     {.time_s = 0.0, .position_m = {0.0, 1.5, 8.0}, .look_at_m = {0.0, 1.5, 0.0}},
@@ -29,7 +31,7 @@ typedef struct scene {
     host_target target;
     host_renderer *renderer;
     host_environment environment;
-    host_mesh plane, post;
+    host_mesh plane, post, wall, bar;
     host_accumulator sums;
     host_drawn picture;
     float color[WIDTH * HEIGHT * 4]; /* of the picture before, see keep */
@@ -53,7 +55,12 @@ static bool make_meshes(scene *s)
 {
     static const float plane[4][3] = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
     static const float post[4][3] = {{0, 0, 0}, {POST_M, 0, 0}, {POST_M, 1.2f, 0}, {0, 1.2f, 0}};
-    return make_quad(s, plane, (const float[3]){0, 1, 0}, PLANE_ALBEDO, &s->plane) &&
+    static const float wall[4][3] = {{-1, 0, 2}, {0, 0, 2}, {0, 1.2f, 2}, {-1, 1.2f, 2}};
+    const float x = -0.5f, z = 2.005f;
+    const float bar[4][3] = {{x, 0, z}, {x + BAR_M, 0, z}, {x + BAR_M, 1, z}, {x, 1, z}};
+    return make_quad(s, wall, (const float[3]){0, 0, 1}, WALL_ALBEDO, &s->wall) &&
+           make_quad(s, bar, (const float[3]){0, 0, 1}, POST_ALBEDO, &s->bar) &&
+           make_quad(s, plane, (const float[3]){0, 1, 0}, PLANE_ALBEDO, &s->plane) &&
            make_quad(s, post, (const float[3]){0, 0, 1}, POST_ALBEDO, &s->post);
 }
 
@@ -68,6 +75,8 @@ static bool build(scene *s)
            host_renderer_set_reuse(s->renderer, &s->target, error, size) && make_meshes(s) &&
            host_renderer_add(s->renderer, &s->plane, error, size) &&
            host_renderer_add(s->renderer, &s->post, error, size) &&
+           host_renderer_add(s->renderer, &s->wall, error, size) &&
+           host_renderer_add(s->renderer, &s->bar, error, size) &&
            host_environment_create(device, &white, &s->environment, error, size) &&
            host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
            host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
@@ -97,6 +106,8 @@ static int tear_down(void **state)
     host_environment_destroy(&s->base.device, &s->environment);
     host_mesh_destroy(&s->base.device, &s->plane);
     host_mesh_destroy(&s->base.device, &s->post);
+    host_mesh_destroy(&s->base.device, &s->wall);
+    host_mesh_destroy(&s->base.device, &s->bar);
     host_target_destroy(&s->base.device, &s->target);
     const uint32_t wrong = fixture_end(&s->base);
     if (wrong)
@@ -109,6 +120,7 @@ static int tear_down(void **state)
 typedef struct way {
     uint32_t shares;
     bool flashes; /* a lamp shines in the first sub-frame of each group alone */
+    bool shines;  /* in all */
     float part;   /* of a frame's motion, see host_camera */
 } way;
 
@@ -126,7 +138,7 @@ static void draw_one(scene *s, const way *w, uint32_t i)
     now.shares = w->shares;
     now.follows = w->shares > 1 && i % w->shares != 0;
     now.part = w->part;
-    host_renderer_set_lights(s->renderer, &lamp, w->flashes && i % SHARE == 0);
+    host_renderer_set_lights(s->renderer, &lamp, w->shines || (w->flashes && i % SHARE == 0));
     assert_true(host_begin_frame(&s->base.device, &cmd, s->base.error, sizeof s->base.error));
     assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &now, &before, s->base.error, sizeof s->base.error));
     host_target_begin_layer(&s->target, cmd);
@@ -156,8 +168,9 @@ static float red(const float *color, int x, int y)
     return color[(y * WIDTH + x) * 4];
 }
 
-/* On the plane, away from the horizon and from the post's columns. */
-enum { FLAT_X = 100, FLAT_Y = 80 };
+/* On the plane, away from the horizon and from the columns of what stands on it. The wall is in columns 33 to 47 and
+ * rows 52 to 69; its edge and the bar before it are in these. */
+enum { FLAT_X = 100, FLAT_Y = 80, EDGE_X = 33, BAR_X = 40, WALL_Y = 62 };
 
 /* Four groups of four that are shaded with the lamp once: all have its light. Shaded each, a quarter has. */
 static void flat_surfaces_are_shaded_once(void **state)
@@ -219,6 +232,43 @@ static void edges_keep_all_sub_frames(void **state)
     }
 }
 
+/* The light of the first sub-frame is on both sides of an edge in all of them, and each has its own share of a pixel. */
+static void edges_take_what_was_shaded_once(void **state)
+{
+    scene *s = *state;
+    float edge = 0.0f;
+    draw(s, (way){.shares = 1, .shines = true});
+    keep(s);
+    draw(s, (way){.shares = SHARE, .flashes = true});
+    for (int y = WALL_Y - 5; y < WALL_Y + 5; y++)
+        for (int x = EDGE_X - 3; x < EDGE_X + 4; x++) {
+            const float wall = red(s->color, EDGE_X + 4, y), beside = red(s->color, EDGE_X - 4, y);
+            const float share = (red(s->color, x, y) - beside) / (wall - beside);
+            edge = fmaxf(edge, fminf(share, 1.0f - share));
+            assert_float_equal(red(s->picture.color, x, y), red(s->color, x, y), 0.004);
+        }
+    printf("a pixel at the edge is %.3f of one side\n", (double)edge);
+    assert_true(edge > 0.1f);
+}
+
+/* A bar that most sub-frames miss, on a wall that is as far away: ids tell them apart. */
+static void things_on_a_surface_are_not_missed(void **state)
+{
+    scene *s = *state;
+    float darkest = 1.0f, most = 0.0f;
+    draw(s, (way){.shares = 1});
+    keep(s);
+    draw(s, (way){.shares = SHARE});
+    for (int y = WALL_Y - 3; y < WALL_Y + 3; y++)
+        for (int x = BAR_X - 2; x < BAR_X + 3; x++) {
+            darkest = fminf(darkest, red(s->color, x, y) / red(s->color, BAR_X + 4, y));
+            most = fmaxf(most, fabsf(red(s->picture.color, x, y) - red(s->color, x, y)));
+        }
+    printf("the bar leaves %.3f of the wall, at most %.5f apart\n", (double)darkest, (double)most);
+    assert_true(darkest < 0.95f);
+    assert_true(most < 0.002f);
+}
+
 /* Within the bounds of what moves by itself, and of its mirror image, each sub-frame is shaded; elsewhere one is. */
 static void what_moves_by_itself_is_shaded_each_time_and_the_rest_once(void **state)
 {
@@ -265,6 +315,8 @@ int main(void)
         cmocka_unit_test(what_moves_is_shaded_each_time),
         cmocka_unit_test(narrow_things_are_not_missed),
         cmocka_unit_test(edges_keep_all_sub_frames),
+        cmocka_unit_test(edges_take_what_was_shaded_once),
+        cmocka_unit_test(things_on_a_surface_are_not_missed),
         cmocka_unit_test(what_moves_by_itself_is_shaded_each_time_and_the_rest_once),
         cmocka_unit_test(what_moves_goes_so_many_pixels_as_its_way_is_long),
     };

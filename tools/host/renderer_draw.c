@@ -75,8 +75,10 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
 static bool is_drawn_by(const host_material *material, host_pipeline kind)
 {
     switch (kind) {
-    case HOST_PIPELINE_DEPTH: return material->alpha == HOST_ALPHA_OPAQUE;
-    case HOST_PIPELINE_CUTOUT: return material->alpha == HOST_ALPHA_MASK;
+    case HOST_PIPELINE_DEPTH:
+    case HOST_PIPELINE_ID: return material->alpha == HOST_ALPHA_OPAQUE;
+    case HOST_PIPELINE_CUTOUT:
+    case HOST_PIPELINE_CUTOUT_ID: return material->alpha == HOST_ALPHA_MASK;
     case HOST_PIPELINE_SHADE: return material->alpha != HOST_ALPHA_GLASS;
     case HOST_PIPELINE_GLASS: return material->alpha == HOST_ALPHA_GLASS;
     case HOST_PIPELINE_FOOTAGE: return true;
@@ -129,8 +131,8 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
     if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */
-    if (kind == HOST_PIPELINE_DEPTH || kind == HOST_PIPELINE_CUTOUT || kind == HOST_PIPELINE_FOOTAGE)
-        level = count;
+    const bool one_shader = kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_FOOTAGE;
+    level = one_shader ? count : level;
     draw_indices(d, kind, material->two_sided, first, level);
     draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
                  first + level, count - level);
@@ -504,15 +506,16 @@ static host_moving find_moving(const host_renderer *r, const host_camera *camera
     return moving;
 }
 
-/* Over the plate of the sub-frame before. */
-static void draw_following(drawing *d, const host_camera *camera)
+/* Over the plate of the sub-frame before. See reuse.h. */
+static void draw_following(drawing *d, const host_target *target, const host_camera *camera)
 {
     const host_renderer *r = d->renderer;
     const float shift_px[2] = {r->found_px[0] - camera->jitter_px[0], r->found_px[1] - camera->jitter_px[1]};
     host_reuse_begin_depth(&r->reuse, d->cmd);
-    draw_depth(d);
+    draw_entries(d, HOST_PIPELINE_ID);
+    draw_entries(d, HOST_PIPELINE_CUTOUT_ID);
     const host_moving moving = find_moving(r, camera);
-    host_reuse_end_depth(&r->reuse, d->cmd, shift_px, &moving);
+    host_reuse_end_depth(&r->reuse, d->cmd, target, shift_px, &moving);
     host_reuse_begin_shade(&r->reuse, d->cmd);
     bind_frame(r, d->cmd);
     d->bound = VK_NULL_HANDLE;
@@ -542,7 +545,7 @@ bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
         return false;
     const bool shares = may_share(r, target, camera);
     if (shares && camera->follows && r->found)
-        draw_following(&d, camera);
+        draw_following(&d, target, camera);
     else
         draw_first(&d, target, camera, shares);
     host_label_end(r->device, cmd);

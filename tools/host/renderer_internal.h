@@ -15,9 +15,11 @@
 typedef enum host_pipeline {
     HOST_PIPELINE_DEPTH,  /* opaque, depth only */
     HOST_PIPELINE_CUTOUT, /* cut-out, depth only */
-    HOST_PIPELINE_SHADE,  /* color of the two above, where the depth is equal */
-    HOST_PIPELINE_GLASS,  /* blended over it */
-    HOST_PIPELINE_DRY,    /* instead of these two where no water can lie; not in the mirror, where nothing is wet */
+    HOST_PIPELINE_ID,     /* the same two with ids */
+    HOST_PIPELINE_CUTOUT_ID,
+    HOST_PIPELINE_SHADE, /* color of opaque and cut-out, where the depth is equal */
+    HOST_PIPELINE_GLASS, /* blended over it */
+    HOST_PIPELINE_DRY,   /* instead of the last two where no water can lie; not in the mirror, where nothing is wet */
     HOST_PIPELINE_DRY_GLASS,
     HOST_PIPELINE_FOOTAGE,        /* what water changes of ground on a picture */
     HOST_PIPELINE_FOOTAGE_MIRROR, /* instead of the sky in the mirror, where a picture replaces the plate */

@@ -5,7 +5,9 @@
 #include "renderer_internal.h"
 
 #include "cutout_frag.spv.h"
+#include "cutout_frag_id.spv.h"
 #include "footage_mirror_frag.spv.h"
+#include "id_frag.spv.h"
 #include "scene_frag.spv.h"
 #include "scene_frag_dry.spv.h"
 #include "scene_frag_footage.spv.h"
@@ -42,6 +44,8 @@ bool host_renderer_create_bindings(host_renderer *r, char *error, size_t error_s
 enum {
     SHADER_SCENE_VERT,
     SHADER_CUTOUT,
+    SHADER_ID,
+    SHADER_CUTOUT_ID,
     SHADER_SCENE_FRAG,
     SHADER_DRY_FRAG,
     SHADER_FOOTAGE_FRAG,
@@ -59,6 +63,8 @@ static const struct {
 } recipes[HOST_PIPELINE_COUNT] = {
     [HOST_PIPELINE_DEPTH] = {SHADER_SCENE_VERT, NO_SHADER, true, false, false, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_CUTOUT] = {SHADER_SCENE_VERT, SHADER_CUTOUT, true, false, false, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_ID] = {SHADER_SCENE_VERT, SHADER_ID, true, false, false, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_CUTOUT_ID] = {SHADER_SCENE_VERT, SHADER_CUTOUT_ID, true, false, false, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_SHADE] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_GLASS] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
@@ -75,6 +81,8 @@ static host_code code_of(int shader, bool mirror)
     switch (shader) {
     case SHADER_SCENE_VERT: return mirror ? HOST_CODE(scene_vert_mirror) : HOST_CODE(scene_vert);
     case SHADER_CUTOUT: return HOST_CODE(cutout_frag);
+    case SHADER_ID: return HOST_CODE(id_frag);
+    case SHADER_CUTOUT_ID: return HOST_CODE(cutout_frag_id);
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
     case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
     case SHADER_FOOTAGE_FRAG: return HOST_CODE(scene_frag_footage);
@@ -92,6 +100,8 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
         if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend || kind == HOST_PIPELINE_FOOTAGE))
             states[i] = recipes[kind].blend && i == 0 ? host_blend_over : host_blend_replace;
+    if (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID)
+        states[HOST_ID] = host_blend_replace;
 }
 
 static bool create_pipeline(host_renderer *r, VkRenderPass pass, host_pipeline kind, bool two_sided,

@@ -1,18 +1,20 @@
 /* reuse.h - shading that sub-frames share.
  *
  * A frame of 16 sub-frames sees most of its surfaces 16 times alike, and shading them is most of its time. So one
- * sub-frame of a group is shaded everywhere. The others draw their own depth, which the layers are tested against, but
- * are shaded only where they may differ from it: where neighbouring pixels differ (a little at edges, by half on a
- * surface), where the picture moves, where something moves by itself (moving.h), and where their depth shows something
- * else. Elsewhere they keep its pixels (color, normal, velocity, water and id): each is what was seen less than a pixel
- * away.
+ * sub-frame of a group is shaded everywhere. The others draw their own depth, which the layers are tested against, and
+ * their ids, and get the rest (color, normal, velocity and water) in one of three ways:
+ *
+ * - Kept: blocks of pixels that are flat and of even color, and where depth and ids still show the same, stay as they
+ *   are. Each pixel is what was seen less than a pixel away. From one of these sub-frames to the next fewer blocks are kept,
+ *   never more: a pixel that is kept is still the first one's.
+ * - Taken: at edges, the pixel of the first sub-frame nearby whose depth and id are of the surface that this one shows.
+ *   So edges are as fine as all sub-frames draw them, as with multisampling, and a surface is shaded once on each side.
+ * - Shaded: where no pixel nearby has seen that surface, where pixels of it differ by half, where the picture moves, and
+ *   where something moves by itself (moving.h).
  *
  *     plate -> host_reuse_find
- *     for each of the others: host_reuse_begin_depth, draw depth, host_reuse_end_depth, host_reuse_begin_shade, draw
- *         where the depth is equal -> vkCmdEndRenderPass
- *
- * Blocks of pixels are shaded or kept as a whole, and from one of these sub-frames to the next more are shaded, never
- * fewer: a pixel that is kept is still the first one's. */
+ *     for each of the others: host_reuse_begin_depth, draw depth and ids, host_reuse_end_depth, host_reuse_begin_shade, draw
+ *         where the depth is equal -> vkCmdEndRenderPass */
 #ifndef VIRGA_HOST_REUSE_H
 #define VIRGA_HOST_REUSE_H
 
@@ -22,14 +24,17 @@
 #include "target.h"
 
 typedef struct host_reuse {
-    uint32_t width, height; /* 0: not created */
-    host_image depth;       /* that shading is tested against */
-    host_buffer planes;     /* of the depth of each block, see shaders/reuse.glsl */
-    VkRenderPass pass;      /* keeps the plate's colors, clears depth; compatible with that of the plate */
+    uint32_t width, height;                  /* 0: not created */
+    host_image depth;                        /* that shading is tested against */
+    host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */
+    host_buffer choices;                     /* for each pixel, HOST_REUSE_SHADED or the place of what it takes */
+    host_buffer slopes;                      /* of the first sub-frame's depth: two floats for each pixel */
+    host_image first[HOST_PLATE_COLORS + 1]; /* the sub-frame that was shaded everywhere: 56 bytes a pixel */
+    VkRenderPass pass; /* keeps the plate's colors, clears depth; compatible with that of the plate */
     VkFramebuffer depth_framebuffer, shade_framebuffer; /* with the plate's depth, and with the other */
     VkSampler sampler;
     host_bindings bindings;
-    VkPipeline find, check, fill;
+    VkPipeline find, check, slope, choose, fill, take;
 } host_reuse;
 
 /* For one target, which must outlive it. On failure call host_reuse_destroy too. */
@@ -45,8 +50,8 @@ void host_reuse_find(const host_reuse *reuse, VkCommandBuffer cmd, const host_ta
 /* Begin passes; they set viewport and scissor. `end_depth` ends the first. `shift_px`: the jitter of the sub-frame that
  * was shaded everywhere, minus that of this one. */
 void host_reuse_begin_depth(const host_reuse *reuse, VkCommandBuffer cmd);
-void host_reuse_end_depth(const host_reuse *reuse, VkCommandBuffer cmd, const float shift_px[2],
-                          const host_moving *moving);
+void host_reuse_end_depth(const host_reuse *reuse, VkCommandBuffer cmd, const host_target *target,
+                          const float shift_px[2], const host_moving *moving);
 void host_reuse_begin_shade(const host_reuse *reuse, VkCommandBuffer cmd);
 
 #endif

@@ -22,7 +22,7 @@ static const struct {
 #define LAYER_FORMAT   VK_FORMAT_R32G32B32A32_SFLOAT
 #define LAYER_CHANNELS 4
 
-static VkFormat format_of(host_output output)
+VkFormat host_output_format(host_output output)
 {
     return output < HOST_LAYER ? outputs_table[output].format : LAYER_FORMAT;
 }
@@ -48,7 +48,7 @@ static VkAttachmentDescription drawn(host_output output)
     VkImageLayout final;
     if (!is_sampled(output, &final))
         final = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    return host_attachment(format_of(output), final);
+    return host_attachment(host_output_format(output), final);
 }
 
 #define READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
@@ -143,8 +143,10 @@ static bool create_output(host_device *device, host_target *target, host_output 
     if (output == HOST_COLOR || output == HOST_DEPTH)
         usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT; /* host_target_fill_plate */
     usage |= output == HOST_DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    const host_image_def def = {
-        .format = format_of(output), .extent = {target->width, target->height, 1}, .usage = usage, .name = name};
+    const host_image_def def = {.format = host_output_format(output),
+                                .extent = {target->width, target->height, 1},
+                                .usage = usage,
+                                .name = name};
     const VkDeviceSize size = (VkDeviceSize)target->width * target->height * host_output_channels(output) * 4;
     return host_image_create(device, &def, &target->images[output], error, error_size) &&
            host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, name,
@@ -431,7 +433,7 @@ void host_target_describe_moving(const host_target *target, virga_target_def *de
 {
     host_target_describe_layer(target, def);
     def->render_pass = target->moving_pass;
-    def->color_formats[1] = format_of(HOST_VELOCITY);
+    def->color_formats[1] = host_output_format(HOST_VELOCITY);
     def->color_count = 2;
     def->motion_attachment = 1;
 }
@@ -472,6 +474,20 @@ static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output
         host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, 0, HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+}
+
+void host_target_copy_plate(const host_target *target, VkCommandBuffer cmd,
+                            const host_image copies[HOST_PLATE_COLORS + 1])
+{
+    for (uint32_t i = 0; i <= HOST_PLATE_COLORS; i++) {
+        const VkImageSubresourceLayers part = {i == HOST_DEPTH ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
+                                               0, 0, 1};
+        const VkImageCopy region = {.srcSubresource = part, .dstSubresource = part, .extent = copies[i].extent};
+        begin_copy(target, cmd, (host_output)i);
+        vkCmdCopyImage(cmd, target->images[i].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, copies[i].image,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        end_copy(target, cmd, (host_output)i);
+    }
 }
 
 const host_image *host_target_shown(const host_target *target, host_output output)

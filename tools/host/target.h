@@ -103,6 +103,11 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
 /* A pass that keeps the plate's colors and clears its depth, compatible with the plate's. For host_reuse. */
 bool host_target_create_kept_pass(host_device *device, VkRenderPass *pass, char *error, size_t error_size);
 
+/* Copies the plate's colors and depth, once it is drawn, into images of its size and formats in the layout for copies. */
+void host_target_copy_plate(const host_target *target, VkCommandBuffer cmd,
+                            const host_image copies[HOST_PLATE_COLORS + 1]);
+VkFormat host_output_format(host_output output);
+
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_over(const host_target *target, VkCommandBuffer cmd);  /* over a plate that is there */
@@ -129,7 +134,7 @@ void host_target_describe_moving(const host_target *target, virga_target_def *de
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs);
 
 /* For compute shaders that read an output, after all is drawn: in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL in between.
- * For any output but id and depth. */
+ * For any output but depth. */
 void host_target_begin_read(const host_target *target, VkCommandBuffer cmd, host_output output);
 void host_target_end_read(const host_target *target, VkCommandBuffer cmd, host_output output);
 

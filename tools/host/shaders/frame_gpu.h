@@ -133,6 +133,12 @@ struct host_contact_gpu { /* push constants */
 #define HOST_REUSE_SIDE  4 /* pixels along a side of a block */
 #define HOST_REUSE_RECTS 8
 
+/* What a pixel of a sub-frame takes: a pixel of the one that was shaded everywhere, by place in a square of 3 x 3 in
+ * rows from the top left, with itself in the middle; or it is shaded. */
+#define HOST_REUSE_PLACES 9
+#define HOST_REUSE_SHADED HOST_REUSE_PLACES
+#define HOST_REUSE_TAKEN  1e-6 /* as a depth: no surface is so near */
+
 struct host_reuse_gpu { /* push constants */
     HOST_UINT width;
     HOST_UINT height;

@@ -1,10 +1,5 @@
 // outputs.glsl - attachments of the plate, and how far a point moved on the picture since a frame ago.
-
-layout(location = 0) out vec4 out_color;
-layout(location = 1) out vec4 out_normal;
-layout(location = 2) out vec2 out_velocity;
-layout(location = 3) out vec2 out_water; // wetness, depth of water (m)
-layout(location = 4) out uint out_id;
+#include "attachments.glsl"
 
 vec2 pixel_of(vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * frame.screen.xy; }
 

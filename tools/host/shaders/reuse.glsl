@@ -5,13 +5,21 @@
 layout(push_constant) uniform Reuse { host_reuse_gpu reuse; };
 
 // Depth of the pixel above and left of the block, what it rises by from pixel to pixel right and down, and how far a
-// depth may be from that; below 0: nothing is shared.
+// depth may be from that. Below 0: REUSE_NOTHING, all of it is shaded, or REUSE_PIXELS, each pixel takes another one
+// that sees the same surface.
 #define REUSE_NOTHING vec4(0.0, 0.0, 0.0, -1.0)
+#define REUSE_PIXELS  vec4(0.0, 0.0, 0.0, -2.0)
+
+bool reuse_keeps(vec4 plane) { return plane.w >= 0.0; }
+bool reuse_takes_pixels(vec4 plane) { return plane.w < -1.5; }
 
 const float REUSE_MOVED_PX = 0.1; // what the eye moves meanwhile, beyond what shift says
 
 // 2 parts of a thousand of the distance: 1 - depth falls as 1 / distance.
 float reuse_tolerance(float depth) { return 0.002 * (1.0 - depth) + 1e-6; }
+
+// The id of a pixel, from what was drawn with its depth. The sky draws none.
+uint reuse_id(float depth, uint drawn) { return depth < 1.0 ? drawn : 0u; }
 
 // Whether something moves by itself in a block.
 bool reuse_moves(uvec2 first)

@@ -3,6 +3,7 @@
 // invocation for each block, which also looks at the pixels around it, since jitter moves what lies there into it.
 #extension GL_GOOGLE_include_directive : require
 #include "reuse.glsl"
+#include "reuse_contrast.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -20,13 +21,6 @@ ivec2 pixel_at(ivec2 from, int x, int y)
 
 float depth_at(ivec2 from, int x, int y) { return texelFetch(depth_picture, pixel_at(from, x, y), 0).r; }
 
-// How much two pixels differ, as a share of the brighter one.
-float contrast(vec3 a, vec3 b)
-{
-    const vec3 apart = abs(a - b), most = max(a, b);
-    return max(apart.r, max(apart.g, apart.b)) / max(max(most.r, max(most.g, most.b)), 1e-6);
-}
-
 void main()
 {
     const uvec2 first = gl_GlobalInvocationID.xy * HOST_REUSE_SIDE;
@@ -40,9 +34,9 @@ void main()
         for (int x = 0; x < SIDE; x++) {
             const vec3 color = texelFetch(color_picture, pixel_at(from, x, y), 0).rgb;
             if (x > 0)
-                most = max(most, contrast(left, color));
+                most = max(most, reuse_contrast(left, color));
             if (y > 0)
-                most = max(most, contrast(above[x], color));
+                most = max(most, reuse_contrast(above[x], color));
             above[x] = left = color;
         }
     }
@@ -59,7 +53,9 @@ void main()
         moved2 = max(moved2, dot(moved, moved));
     }
     const float wide = reuse_tolerance(corner), allowed = apart < wide ? reuse.contrast : reuse.edge;
-    const bool same = most <= allowed && moved2 <= reuse.moved2 && !reuse_moves(first);
+    const bool stands = moved2 <= reuse.moved2 && !reuse_moves(first);
     apart += wide + REUSE_MOVED_PX * (abs(slope.x) + abs(slope.y));
-    planes[reuse_block(first)] = same ? vec4(corner, slope, apart) : REUSE_NOTHING;
+    planes[reuse_block(first)] = !stands          ? REUSE_NOTHING
+                                 : most > allowed ? REUSE_PIXELS
+                                                  : vec4(corner, slope, apart);
 }
