@@ -27,8 +27,8 @@ uint choose(ivec2 pixel)
     uint best = HOST_REUSE_SHADED;
     float nearest = 4.0; // no pixel of the square is so far away
     vec3 low = vec3(1e30), high = vec3(0.0);
-    for (int i = 0; i < HOST_REUSE_PLACES; i++) {
-        const ivec2 place = ivec2(i % 3, i / 3) - 1, at = reuse_inside(pixel + place);
+    for (int i = 0; i < 4; i++) { // those around the point that is seen
+        const ivec2 place = ivec2(floor(shift)) + ivec2(i & 1, i >> 1), at = reuse_inside(pixel + place);
         const vec2 away = vec2(place) - shift, its_slope = slopes[at.y * int(reuse.width) + at.x];
         const vec3 color = texelFetch(first_color, at, 0).rgb;
         const float farther = texelFetch(first_depth, at, 0).r - depth, far = dot(away, away);
@@ -38,7 +38,7 @@ uint choose(ivec2 pixel)
             continue;
         low = min(low, color);
         high = max(high, color);
-        best = far < nearest ? uint(i) : best;
+        best = far < nearest ? uint(place.x + 1 + 3 * (place.y + 1)) : best;
         nearest = min(nearest, far);
     }
     return reuse_contrast(low, high) <= reuse.contrast ? best : HOST_REUSE_SHADED;
