@@ -39,6 +39,13 @@ enum {
 static const VkDescriptorType kinds[BINDINGS] = {IMAGE, BUFFER, IMAGE, IMAGE, BUFFER, IMAGE, IMAGE,
                                                  IMAGE, IMAGE,  IMAGE, IMAGE, BUFFER, IMAGE};
 
+uint32_t host_reuse_share(uint32_t samples)
+{
+    if (samples >= 16 && samples % 4 == 0)
+        return 4;
+    return samples >= 4 && samples % 2 == 0 ? 2 : 1;
+}
+
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
 static uint32_t blocks(uint32_t pixels)

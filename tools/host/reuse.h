@@ -23,6 +23,10 @@
 #include "passes.h"
 #include "target.h"
 
+/* Sub-frames that share shading, of a number of samples, which it divides: 1, 2 or 4. As each draws its own edges, two
+ * that are shaded are enough. */
+uint32_t host_reuse_share(uint32_t samples);
+
 typedef struct host_reuse {
     uint32_t width, height;                  /* 0: not created */
     host_image depth;                        /* that shading is tested against */

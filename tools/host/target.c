@@ -455,22 +455,21 @@ static bool is_drawn(const host_target *target, host_output output)
     return host_target_shown(target, output) == &target->images[output];
 }
 
-/* Into the layout for copies. */
-static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
+/* The drawn image into the layout for copies, and back. */
+static void begin_drawn_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     VkImageLayout layout;
-    if (is_sampled(output, &layout) && is_drawn(target, output))
+    if (is_sampled(output, &layout))
         host_image_barrier(cmd, &target->images[output], layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                            VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
 }
 
-/* And back. */
-static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
+static void end_drawn_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     VkImageLayout layout;
-    if (is_sampled(output, &layout) && is_drawn(target, output))
+    if (is_sampled(output, &layout))
         host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, 0, HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
@@ -483,10 +482,10 @@ void host_target_copy_plate(const host_target *target, VkCommandBuffer cmd,
         const VkImageSubresourceLayers part = {i == HOST_DEPTH ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
                                                0, 0, 1};
         const VkImageCopy region = {.srcSubresource = part, .dstSubresource = part, .extent = copies[i].extent};
-        begin_copy(target, cmd, (host_output)i);
+        begin_drawn_copy(target, cmd, (host_output)i);
         vkCmdCopyImage(cmd, target->images[i].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, copies[i].image,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        end_copy(target, cmd, (host_output)i);
+        end_drawn_copy(target, cmd, (host_output)i);
     }
 }
 
@@ -500,9 +499,12 @@ void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
         if (!(outputs & (1u << i)) || !target->images[i].image)
             continue;
-        begin_copy(target, cmd, (host_output)i);
+        const bool drawn = is_drawn(target, (host_output)i);
+        if (drawn)
+            begin_drawn_copy(target, cmd, (host_output)i);
         copy_image(target, cmd, (host_output)i);
-        end_copy(target, cmd, (host_output)i);
+        if (drawn)
+            end_drawn_copy(target, cmd, (host_output)i);
     }
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -2,6 +2,7 @@
 #include "shot/internal.h"
 
 #include "effect.h"
+#include "reuse.h"
 #include "shot/distort.h"
 #include "shot/focus.h"
 #include "shot/lens.h"
@@ -54,7 +55,7 @@ static bool draw_colors(const shot *s, VkCommandBuffer cmd, uint32_t count, cons
 static uint32_t shading_share(const shot *s)
 {
     const bool alone = s->plate || s->moving_target || shot_looks_through_lens(s);
-    return alone ? 1 : host_accumulator_share(s->options.samples);
+    return alone ? 1 : host_reuse_share(s->options.samples);
 }
 
 /* The place of a sub-frame in the sequence of jitters, which has powers of two and three: every second or fourth are

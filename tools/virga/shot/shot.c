@@ -2,6 +2,7 @@
 #include "shot/internal.h"
 
 #include "effect.h"
+#include "reuse.h"
 #include "shot/checkpoint.h"
 #include "shot/distort.h"
 #include "shot/focus.h"
@@ -151,7 +152,7 @@ static bool open_renderer(shot *s, char *error, size_t error_size)
 {
     return shot_create_target(s, error, error_size) &&
            host_renderer_create(&s->device, &s->renderer, error, error_size) &&
-           (host_accumulator_share(s->options.samples) == 1 ||
+           (host_reuse_share(s->options.samples) == 1 ||
             host_renderer_set_reuse(s->renderer, &s->target, error, error_size));
 }
 
