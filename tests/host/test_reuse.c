@@ -170,7 +170,7 @@ static float red(const float *color, int x, int y)
 
 /* On the plane, away from the horizon and from the columns of what stands on it. The wall is in columns 33 to 47 and
  * rows 52 to 69; its edge and the bar before it are in these. */
-enum { FLAT_X = 100, FLAT_Y = 80, EDGE_X = 33, BAR_X = 40, WALL_Y = 62 };
+enum { FLAT_X = 100, FLAT_Y = 80, EDGE_X = 33, BAR_X = 40, WALL_Y = 62, BEHIND_Y = 60 };
 
 /* Four groups of four that are shaded with the lamp once: all have its light. Shaded each, a quarter has. */
 static void flat_surfaces_are_shaded_once(void **state)
@@ -269,29 +269,69 @@ static void things_on_a_surface_are_not_missed(void **state)
     assert_true(most < 0.002f);
 }
 
-/* Within the bounds of what moves by itself, and of its mirror image, each sub-frame is shaded; elsewhere one is. */
+static float light_at(scene *s, way w, int x, int y)
+{
+    draw(s, (way){.shares = 1});
+    const float dark = red(s->picture.color, x, y);
+    draw(s, w);
+    return red(s->picture.color, x, y) - dark;
+}
+
+/* The wall moves: each sub-frame is shaded on it, and one in four on the plane before it. */
 static void what_moves_by_itself_is_shaded_each_time_and_the_rest_once(void **state)
 {
+    const way each = {.shares = 1, .flashes = true}, shared = {.shares = SHARE, .flashes = true};
     scene *s = *state;
+    s->wall.moves = true;
+    const float on_it = light_at(s, shared, EDGE_X + 4, WALL_Y), beside = light_at(s, shared, FLAT_X, FLAT_Y);
+    s->wall.moves = false;
+    const float quarter_on_it = light_at(s, each, EDGE_X + 4, WALL_Y);
+    const float quarter_beside = light_at(s, each, FLAT_X, FLAT_Y);
+    printf("light of the lamp: %.5f of %.5f on it, %.5f of %.5f beside\n", (double)on_it, (double)quarter_on_it,
+           (double)beside, (double)quarter_beside);
+    assert_float_equal(on_it, quarter_on_it, 1e-6);
+    assert_float_equal(beside, 4.0f * quarter_beside, 0.001);
+}
+
+/* The post as if it was wide and moved, in front of the sky and the plane, and its mirror image below it. BEHIND_Y is
+ * on the plane behind it, and FLAT_Y on the mirror image. */
+static void light_within(scene *s, host_alpha alpha, float travel_m, int y, float light[2])
+{
     const float high = s->post.high[0], low = s->post.low[0];
     s->post.moves = true;
-    draw(s, (way){.shares = 1});
-    const float dark = red(s->picture.color, FLAT_X, FLAT_Y);
-    draw(s, (way){.shares = 1, .flashes = true});
-    const float quarter = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
-    draw(s, (way){.shares = SHARE, .flashes = true});
-    const float beside = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    s->post.materials[0].alpha = alpha;
     s->post.low[0] = low - 30;
     s->post.high[0] = high + 30;
-    draw(s, (way){.shares = SHARE, .flashes = true});
-    const float within = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    s->post.travel_m = travel_m;
+    light[0] = light_at(s, (way){.shares = SHARE, .flashes = true}, FLAT_X, y);
+    light[1] = light_at(s, (way){.shares = 1, .flashes = true}, FLAT_X, y);
     s->post.low[0] = low;
     s->post.high[0] = high;
+    s->post.travel_m = 0;
+    s->post.materials[0].alpha = HOST_ALPHA_OPAQUE;
     s->post.moves = false;
-    printf("light of the lamp: %.5f in a quarter, %.5f beside, %.5f within\n", (double)quarter, (double)beside,
-           (double)within);
-    assert_float_equal(beside, 4.0f * quarter, 0.001);
-    assert_float_equal(within, quarter, 1e-6);
+    printf("light of the lamp: %.5f, %.5f in a quarter\n", (double)light[0], (double)light[1]);
+    assert_true(light[1] > 0.001f);
+}
+
+/* No id tells where glass is that moves: within its bounds each sub-frame is shaded. */
+static void what_moving_glass_may_cover_is_shaded_each_time(void **state)
+{
+    float light[2];
+    light_within(*state, HOST_ALPHA_GLASS, 0.0f, BEHIND_Y, light);
+    assert_float_equal(light[0], light[1], 1e-6);
+    light_within(*state, HOST_ALPHA_OPAQUE, 0.0f, BEHIND_Y, light);
+    assert_float_equal(light[0], 4.0f * light[1], 0.001);
+}
+
+/* What goes far while the shutter is open has a picture in the mirror for each sub-frame. */
+static void what_a_fast_mirror_image_may_cover_is_shaded_each_time(void **state)
+{
+    float light[2];
+    light_within(*state, HOST_ALPHA_OPAQUE, 1.0f, FLAT_Y, light);
+    assert_float_equal(light[0], light[1], 1e-6);
+    light_within(*state, HOST_ALPHA_OPAQUE, 0.001f, FLAT_Y, light);
+    assert_float_equal(light[0], 4.0f * light[1], 0.001);
 }
 
 /* A thing 8 m away that goes 5 cm: the picture's half height is tan(30 degrees) of the distance. */
@@ -318,6 +358,8 @@ int main(void)
         cmocka_unit_test(edges_take_what_was_shaded_once),
         cmocka_unit_test(things_on_a_surface_are_not_missed),
         cmocka_unit_test(what_moves_by_itself_is_shaded_each_time_and_the_rest_once),
+        cmocka_unit_test(what_moving_glass_may_cover_is_shaded_each_time),
+        cmocka_unit_test(what_a_fast_mirror_image_may_cover_is_shaded_each_time),
         cmocka_unit_test(what_moves_goes_so_many_pixels_as_its_way_is_long),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -58,17 +58,18 @@ static void merge_last(host_moving *m)
     m->count--;
 }
 
-void host_moving_add(host_moving *m, const host_mesh *mesh, const host_camera *camera, double mirror_m)
+/* The rectangle around eight corners, whose heights are turned over at a mirror's or not. */
+static void add_corners(host_moving *m, const host_mesh *mesh, const host_camera *camera, const double *mirror_m)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     const double sides[2] = {camera->width, camera->height}, tall = (double)mesh->high[1] - (double)mesh->low[1];
     bool seen = true;
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 8; i++) {
         double at[3];
         for (int axis = 0; axis < 3; axis++)
             at[axis] = (double)(i >> axis & 1 ? mesh->high[axis] : mesh->low[axis]);
-        if (i & 8)
-            at[1] = 2 * mirror_m - at[1] - (i & 2 ? SMEARED * tall : 0);
+        if (mirror_m)
+            at[1] = 2 * *mirror_m - at[1] - (i & 2 ? SMEARED * tall : 0);
         seen = grow(camera, at, low, high) && seen;
     }
     if (m->count == HOST_REUSE_RECTS)
@@ -84,6 +85,24 @@ void host_moving_add(host_moving *m, const host_mesh *mesh, const host_camera *c
         return;
     m->count++;
     merge_last(m);
+}
+
+void host_moving_add(host_moving *m, const host_mesh *mesh, const host_camera *camera)
+{
+    add_corners(m, mesh, camera, NULL);
+}
+
+void host_moving_add_mirrored(host_moving *m, const host_mesh *mesh, const host_camera *camera, double mirror_m)
+{
+    add_corners(m, mesh, camera, &mirror_m);
+}
+
+bool host_moving_shows_behind(const host_mesh *mesh)
+{
+    bool shows = false;
+    for (uint32_t i = 0; i < mesh->material_count; i++)
+        shows = shows || mesh->materials[i].alpha == HOST_ALPHA_GLASS;
+    return shows;
 }
 
 /* As if it went across the line of sight, where it is nearest to the camera. */

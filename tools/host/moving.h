@@ -1,5 +1,5 @@
-/* moving.h - where on the picture meshes are that move by themselves, where sub-frames share no shading, and how far
- * they go on it. */
+/* moving.h - where on the picture meshes are that move by themselves, and how far they go on it. Sub-frames share no
+ * shading there, unless ids tell these meshes from what is behind them. */
 #ifndef VIRGA_HOST_MOVING_H
 #define VIRGA_HOST_MOVING_H
 
@@ -14,8 +14,13 @@ typedef struct host_moving {
     } rects[HOST_REUSE_RECTS];
 } host_moving;
 
-/* Adds the rectangle around a mesh, from its bounds, and around what a mirror at the height `mirror_m` shows of it. */
-void host_moving_add(host_moving *moving, const host_mesh *mesh, const host_camera *camera, double mirror_m);
+/* Adds the rectangle around a mesh, from its bounds, and the one around what a mirror at the height `mirror_m` shows of
+ * it. */
+void host_moving_add(host_moving *moving, const host_mesh *mesh, const host_camera *camera);
+void host_moving_add_mirrored(host_moving *moving, const host_mesh *mesh, const host_camera *camera, double mirror_m);
+
+/* Whether a mesh shows what is behind it: no id tells where. */
+bool host_moving_shows_behind(const host_mesh *mesh);
 
 /* How far a mesh goes at most on the picture while the shutter is open, in pixels; 0 if it does not move. */
 double host_moving_travel_px(const host_mesh *mesh, const host_camera *camera);

@@ -151,7 +151,9 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
         if (!is_drawn_by(material, kind))
             continue;
         struct host_surface_gpu surface;
-        fill_surface(primitive, material, entry->first_id + i, lamps_of(r, primitive), &surface);
+        const bool never_shared = mesh->moves && (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID);
+        const uint32_t id = never_shared ? HOST_REUSE_MOVES : entry->first_id + i;
+        fill_surface(primitive, material, id, lamps_of(r, primitive), &surface);
         vkCmdPushConstants(d->cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);
@@ -496,13 +498,18 @@ static bool may_share(const host_renderer *r, const host_target *target, const h
     return camera->shares > 1 && r->reuse.width == target->width && r->reuse.height == target->height;
 }
 
-/* Velocities are the camera's: what moves by itself is told apart by its bounds. */
+/* Velocities are the camera's: what moves by itself is told apart by its id. That does not do where it shows what is
+ * behind it, and where each sub-frame has a mirror's picture of its own. */
 static host_moving find_moving(const host_renderer *r, const host_camera *camera)
 {
     host_moving moving = {0};
-    for (uint32_t i = 0; i < r->entry_count; i++)
-        if (r->entries[i].mesh->moves)
-            host_moving_add(&moving, r->entries[i].mesh, camera, r->mirror_m);
+    for (uint32_t i = 0; i < r->entry_count; i++) {
+        const host_mesh *mesh = r->entries[i].mesh;
+        if (mesh->moves && host_moving_shows_behind(mesh))
+            host_moving_add(&moving, mesh, camera);
+        if (mesh->moves && r->mirror_share < camera->shares)
+            host_moving_add_mirrored(&moving, mesh, camera, r->mirror_m);
+    }
     return moving;
 }
 

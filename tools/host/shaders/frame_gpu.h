@@ -137,7 +137,8 @@ struct host_contact_gpu { /* push constants */
  * rows from the top left, with itself in the middle; or it is shaded. */
 #define HOST_REUSE_PLACES 9
 #define HOST_REUSE_SHADED HOST_REUSE_PLACES
-#define HOST_REUSE_TAKEN  1e-6 /* as a depth: no surface is so near */
+#define HOST_REUSE_MOVES  16777215 /* as an id: of what moves by itself, whose pixels are shaded each time */
+#define HOST_REUSE_TAKEN  1e-6     /* as a depth: no surface is so near */
 
 struct host_reuse_gpu { /* push constants */
     HOST_UINT width;
