@@ -232,7 +232,7 @@ static void edges_keep_all_sub_frames(void **state)
     }
 }
 
-/* The light of the first sub-frame is on both sides of an edge in all of them, and each has its own share of a pixel. */
+/* The light of the first sub-frame is on both sides of an edge in all of them. Each has its own share of a pixel. */
 static void edges_take_what_was_shaded_once(void **state)
 {
     scene *s = *state;

@@ -7,7 +7,7 @@
  * - Kept: blocks of pixels that are flat and of even color, and where depth and ids still show the same, stay as they
  *   are. Each pixel is what was seen less than a pixel away. From one of these sub-frames to the next fewer blocks are
  *   kept, never more: a pixel that is kept is still the first one's.
- * - Taken: at edges, the pixel of the first sub-frame nearby whose depth and id are of the surface that this one shows.
+ * - Taken: at edges, the pixel of the first sub-frame nearby whose depth and id are of the surface that this one sees.
  *   So edges are as fine as all sub-frames draw them, as with multisampling, and a surface is shaded once on each side.
  * - Shaded: where no pixel nearby has seen that surface, where pixels of it differ by half, where the picture moves, and
  *   where something moves by itself (moving.h).

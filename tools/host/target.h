@@ -103,7 +103,8 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
 /* A pass that keeps the plate's colors and clears its depth, compatible with the plate's. For host_reuse. */
 bool host_target_create_kept_pass(host_device *device, VkRenderPass *pass, char *error, size_t error_size);
 
-/* Copies the plate's colors and depth, once it is drawn, into images of its size and formats in the layout for copies. */
+/* Copies the plate's colors and depth, once it is drawn, into images of its size and formats, in the layout for
+ * copies. */
 void host_target_copy_plate(const host_target *target, VkCommandBuffer cmd,
                             const host_image copies[HOST_PLATE_COLORS + 1]);
 VkFormat host_output_format(host_output output);
