@@ -9,8 +9,8 @@
  *   kept, never more: a pixel that is kept is still the first one's.
  * - Taken: at edges, the pixel of the first sub-frame nearby whose depth and id are of the surface that this one sees.
  *   So edges are as fine as all sub-frames draw them, as with multisampling, and a surface is shaded once on each side.
- * - Shaded: where no pixel nearby has seen that surface, where pixels of it differ by half, where the picture moves, and
- *   where something moves by itself (moving.h).
+ * - Shaded: where no pixel nearby has seen that surface, where pixels of it differ by half, where the picture moves,
+ *   and what moves by itself (see also moving.h).
  *
  *     plate -> host_reuse_find
  *     for each of the others: host_reuse_begin_depth, draw depth and ids, host_reuse_end_depth,
