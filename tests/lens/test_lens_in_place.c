@@ -57,9 +57,15 @@ static void compare_to_an_image_of_its_own(virga_pass_variants variants, float m
     }
 }
 
+/* With the passes of GPUs the wide discs of the one lens come from a quarter of the resolution, and those of the other
+ * from blocks of texels. They are as exact as each other, but not the same: tests/lens/wide has its own references. */
 static void the_picture_is_that_of_an_image_of_its_own(void **state)
 {
     (void)state;
+    if (effect_fixture_wanted_variants() == VIRGA_VARIANTS_GPU) {
+        printf("skipped: with the passes of GPUs the two lenses gather wide discs in two ways\n");
+        skip();
+    }
     compare_to_an_image_of_its_own(VIRGA_VARIANTS_OF_DEVICE, virga_default_lens_settings().max_radius_px);
 }
 
