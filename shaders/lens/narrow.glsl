@@ -122,6 +122,7 @@ bool has_near; // circles of confusion from in front of the focus reach the tile
 
 vec4 on_scene_mean(ivec2 texel) { return vec4(0.0); }
 #include "gather.glsl"
+#include "even.glsl"
 
 // ---- what reaches the tiles
 
@@ -290,10 +291,11 @@ void look_around()
 
 // ---- the samples
 
-// Of a tile: whether each pixel is from the fields alone, see `blurriness`.
-void look_at_own(ivec2 at, vec4 radii)
+// Of a tile: whether each pixel is from the fields alone, see `blurriness`. A texel with pixels on both sides of the
+// focus is taken for one that has others.
+void look_at_own(ivec2 at, texel_circles of)
 {
-    if (any(lessThan(abs(radii), vec4(1.0))))
+    if (of.nearest < 1.0 && of.farthest > -1.0)
         if (at == clamp(at, ivec2(0), REGION - 1))
             has_hard[at.x / TILE] = true;
 }
@@ -407,6 +409,7 @@ void keep_samples()
     const ivec2 first_pixel = low_pixel + (kept_first << 1);
     const vec2 per_pixel = 1.0 / vec2(textureSize(scene_depth, 0));
     const depth_line line = line_of_depths();
+    vec2 least_and_most = vec2(MAX_RADIUS, 0.0);
     for (int i = int(gl_LocalInvocationIndex); i < kept_size.x * kept_size.y; i += LANES) {
         const float row = floor(float(i) * per_row + half_row);
         const ivec2 at = ivec2(float(i) - row * columns, row);
@@ -429,16 +432,16 @@ void keep_samples()
             own = sample_with(texel, of);
         }
         if (ALONE && !COARSE)
-            look_at_own(at + offset, of.of_pixels);
+            look_at_own(at + offset, of);
         if (FINER)
             own.radius = clamp(own.radius, -OWN_MOST, OWN_MOST);
-        float spread_of = 0.0;
+        float spread_of = own.radius > POINT ? 1.0 / disc_area(own.radius) : 0.0;
         if (own.radius < -POINT)
             spread_of = own.share * spread(own.radius) * own_share(own.radius);
-        else if (own.radius > POINT)
-            spread_of = 1.0 / disc_area(own.radius);
+        least_and_most = vec2(min(least_and_most.x, own.radius), max(least_and_most.y, own.radius));
         kept[i] = uvec4(packHalf2x16(own.color.rg), floatBitsToUint(vec3(own.color.b, own.radius, spread_of)));
     }
+    note_kept(least_and_most);
 }
 
 // ---- the fields
@@ -522,8 +525,20 @@ void gather_both(int pair, vec2 reach)
     const ivec2 texel = first_of_pair(pair);
     const int at = row_of(texel) + texel.x;
     vec4 known[2] = vec4[2](vec4(0.0), vec4(0.0));
-    if (!SHAPED && max(reach.x, reach.y) > POINT)
-        gather_two(texel, vec2(gathering_circle(radius_at(at)), gathering_circle(radius_at(at + 1))), reach.y, known);
+    const vec2 own = vec2(gathering_circle(radius_at(at)), gathering_circle(radius_at(at + 1)));
+    const bool gathers = !SHAPED && max(reach.x, reach.y) > POINT;
+    if (gathers && is_even()) {
+        gather_even(texel, 0.5 * (own.x + own.y), known);
+        if (!COARSE && !FINER && !has_near) { // nothing but that is here
+            const float per_weight = 1.0 / known[0].a; // the same of both
+            for (int i = 0; i < 2; i++)
+                if (is_there(texel + ivec2(i, 0)))
+                    store(texel + ivec2(i, 0), vec4(known[i].rgb * per_weight, 0.0), vec4(0.0), vec4(0.0));
+            return;
+        }
+    } else if (gathers) {
+        gather_two(texel, own, reach.y, known);
+    }
     for (int i = 0; i < 2; i++) {
         if (COARSE || FINER) // what the other pass has is not told, but what is behind it is filled in
             has_near = reach.x > POINT || radius_at(at + i) < -BESIDE;
@@ -571,6 +586,8 @@ void tell_finer(int i)
 
 void begin(int lane)
 {
+    if (lane == 0)
+        begin_even();
     if (lane < TILES) {
         found_near[lane] = found_far[lane] = 0u;
         has_hard[lane] = false;

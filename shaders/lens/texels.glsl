@@ -10,7 +10,7 @@ struct texel_circles {
     vec4 weights;   // of the pixels in the texel
     float weight;   // their sum
     float radius;   // of the texel
-    float farthest; // of the pixels
+    float nearest, farthest; // of the pixels
 };
 
 float stored_at(ivec2 pixel) { return texelFetch(scene_depth, pixel, 0).r; }
@@ -35,6 +35,7 @@ texel_circles circles_of(vec4 of_pixels)
     const vec2 less = min(of_pixels.xy, of_pixels.zw), more = max(of_pixels.xy, of_pixels.zw);
     const float nearest = min(less.x, less.y), per_radius = 1.0 / max(abs(nearest), 1.0);
     of.of_pixels = of_pixels;
+    of.nearest = nearest;
     of.farthest = max(more.x, more.y);
     // 1 - (r - nearest) / radius, by fused operations, which are the same in every pass.
     precise const vec4 weights = max(fma(of_pixels, vec4(-per_radius), vec4(fma(nearest, per_radius, 1.0))), 0.0);

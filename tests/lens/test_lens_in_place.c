@@ -77,13 +77,14 @@ static void so_is_that_of_one_pass_for_narrow_discs(void **state)
 }
 
 /* Noise all at one depth, behind the focus: 1.2 px, of which a part of each pixel comes from what is beneath, and 3 px,
- * of which none does, so that one pass lets its tiles overwrite the target. */
+ * of which none does, so that one pass lets its tiles overwrite the target; and 7 and 9.8 px, which it gathers as even
+ * (shaders/lens/even.glsl). */
 static void noise_at_one_depth_is_the_same_from_one_pass(void **state)
 {
-    static const double depths_m[] = {1 / (1 - 0.12), 1 / (1 - 0.3)};
+    static const double depths_m[] = {1 / (1 - 0.12), 1 / (1 - 0.3), 1 / (1 - 0.7), 1 / (1 - 0.98)};
     static float many[4 * WIDTH * HEIGHT];
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 8; i++) {
         host h;
         uint32_t hash = 3;
         double worst = 0;
