@@ -185,13 +185,17 @@ uint own_tile(ivec2 from_first)
     return tile == clamp(tile, ivec2(0), ivec2(FINE_COLUMNS, 2) - 1) ? 1u << (tile.y * FINE_COLUMNS + tile.x) : 0u;
 }
 
-// The nearest and the farthest circle of confusion of four pixels.
-vec2 ends_of(vec4 stored, depth_line line)
+// The nearest and the farthest circle of confusion of pixels, from their least and their greatest depths.
+vec2 ends_between(vec2 less, vec2 more, depth_line line)
 {
-    const vec2 less = min(stored.xy, stored.zw), more = max(stored.xy, stored.zw);
     const vec2 depths = vec2(min(less.x, less.y), max(more.x, more.y));
     const vec2 ends = (depths + view.depth_a) * line.slope + line.at_infinity;
     return vec2(min(ends.x, ends.y), max(ends.x, ends.y));
+}
+
+vec2 ends_of(vec4 stored, depth_line line)
+{
+    return ends_between(min(stored.xy, stored.zw), max(stored.xy, stored.zw), line);
 }
 
 vec2 both_ends(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }
@@ -221,13 +225,14 @@ struct told_around {
     uint finer, wide;
 };
 
-void look_at_ends(vec2 from_first, vec2 ends, float farthest, inout told_around told)
+// `margin`: a tile is told of what ends so far (texels) before it.
+void look_at_ends(vec2 from_first, vec2 ends, float farthest, float margin, inout told_around told)
 {
     const vec2 reach = told_reach(ends, farthest);
     if (COARSE && max(reach.x, reach.y) > 0.0)
         told.wide |= own_tile(ivec2(from_first));
     const vec2 along = vec2(gap_to(from_first.x), gap_to(from_first.x - float(TILE)));
-    const vec2 gaps = max(along, vec2(gap_to(from_first.y))) - MARGIN;
+    const vec2 gaps = max(along, vec2(gap_to(from_first.y))) - margin;
     told.near = max(told.near, mix(vec2(0.0), vec2(reach.x), lessThanEqual(gaps, vec2(reach.x))));
     told.far = max(told.far, mix(vec2(0.0), vec2(reach.y), lessThanEqual(gaps, vec2(BY_SCALE(0.0, reach.y)))));
 }
@@ -242,40 +247,53 @@ void look_at_16(vec2 place, vec2 from_first, depth_places from, depth_line line,
     const float wide = 0.25 * VIRGA_LENS_COARSE_TO;
     if (max(-ends.x, ends.y) <= 0.5 * SHARP_REACH)
         return;
-    look_at_ends(from_first, ends, line.most, told);
+    look_at_ends(from_first, ends, line.most, MARGIN, told);
     if (ends.x >= wide || ends.y <= -wide)
         return;
     told.finer |= finer_tiles(from_first + vec2(0.25), a) | finer_tiles(from_first + vec2(0.75, 0.25), b) |
                   finer_tiles(from_first + vec2(0.25, 0.75), c) | finer_tiles(from_first + vec2(0.75), d);
 }
 
-// All texels whose discs may reach the tiles. A disc has the radius of its nearest pixel, or of its farthest one. Loops
-// over so many texels are most of what tiles in focus cost, so this one computes with floats, which fuse, and decides
-// by depths alone. The last pixels of an odd side are looked at with those before them, and towards a corner a disc is
-// taken for a square.
+// 2 x 2 texels at once: 16 depths have a least and a greatest one before any circle is computed. `place` is that of the
+// first, and `from_first` its distance.
+void look_at_four(vec2 place, vec2 from_first, depth_places from, depth_line line, inout told_around told)
+{
+    const vec2 first = clamp(place, from.low, from.high), last = clamp(place + from.step_of, from.low, from.high);
+    const vec4 a = textureGather(scene_depth, first), b = textureGather(scene_depth, vec2(last.x, first.y));
+    const vec4 c = textureGather(scene_depth, vec2(first.x, last.y)), d = textureGather(scene_depth, last);
+    const vec4 less = min(min(a, b), min(c, d)), more = max(max(a, b), max(c, d));
+    const vec2 ends = ends_between(min(less.xy, less.zw), max(more.xy, more.zw), line);
+    if (max(-ends.x, ends.y) > SHARP_REACH)
+        look_at_ends(from_first + 0.5, ends, line.most, MARGIN + 0.5, told);
+}
+
+// All texels whose discs may reach the tiles, in squares of two, or one by one if COARSE. A disc has the radius of the
+// square's nearest pixel, or of its farthest one. Loops over so many are most of what tiles in focus cost, so this one
+// computes with floats, which fuse, and decides by depths alone. The last pixels of an odd side are looked at with
+// those before them, and towards a corner a disc is taken for a square.
 //
 // COARSE: wide discs from behind the focus cover only what is as far out of focus itself, so that they are looked for
 // no farther than fields are read.
 void look_around()
 {
-    const int around = int(OWN_MOST + MARGIN) + 1;
-    const float columns = float(REGION.x + 2 * around), count = columns * float(REGION.y + 2 * around);
+    const int bits = BY_SCALE(0, 1), around = ((int(OWN_MOST + MARGIN) >> bits) + 1) << bits;
+    const ivec2 squares = (REGION + 2 * around) >> bits;
+    const float columns = float(squares.x), count = columns * float(squares.y);
     const float per_row = 1.0 / columns, half_row = 0.5 * per_row;
     const depth_line line = line_of_depths();
     const depth_places from = places_around(around);
+    const float side = float(1 << bits);
+    const vec2 step_of = side * from.step_of;
     told_around told = told_around(vec2(0.0), vec2(0.0), 0u, 0u);
     for (float i = float(gl_LocalInvocationIndex); i < count; i += float(LANES)) {
         vec2 at;
         at.y = floor(i * per_row + half_row);
         at.x = i - at.y * columns;
-        const vec2 place = at * from.step_of + from.start;
-        if (COARSE) {
-            look_at_16(place, at - float(around), from, line, told);
-            continue;
-        }
-        const vec2 ends = ends_at(place, from, line);
-        if (max(-ends.x, ends.y) > SHARP_REACH)
-            look_at_ends(at - float(around), ends, line.most, told);
+        const vec2 place = at * step_of + from.start, from_first = at * side - float(around);
+        if (COARSE)
+            look_at_16(place, from_first, from, line, told);
+        else
+            look_at_four(place, from_first, from, line, told);
     }
     for (int i = 0; i < TILES; i++) {
         if (told.near[i] > SHARP_REACH)
