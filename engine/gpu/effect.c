@@ -169,8 +169,9 @@ static virga_result create_images(virga_effect *effect, const effect_counts coun
         const VkExtent2D extent = {(uint32_t)counts[row->width], (uint32_t)counts[row->height]};
         const bool wanted = extent.width && extent.height;
         for (uint32_t k = 0; wanted && k < virga_effect_copies(effect, row->per_view); k++)
-            TRY(virga_image_create(effect->context, row->format, extent, row->layers, row->usage, row->aspect,
-                                   row->name, virga_effect_copy(effect, row->member, row->per_view, k)));
+            TRY(virga_image_create_seen_as(effect->context, row->format, row->seen_as, extent, row->layers, row->usage,
+                                           row->aspect, row->name,
+                                           virga_effect_copy(effect, row->member, row->per_view, k)));
     }
 error:
     return result;

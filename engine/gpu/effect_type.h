@@ -87,6 +87,7 @@ typedef struct virga_effect_image {
     virga_first first;
     bool keeps;    /* passes do not write it anew in every frame: it is part of the state, and in the layout GENERAL */
     bool per_view; /* as in virga_effect_buffer */
+    VkFormat seen_as; /* that samplers see it in, see virga_image_create_seen_as */
 } virga_effect_image;
 
 /* A descriptor set layout and its pipeline layout. Rows with a source are bound by virga_effect_bound; the effect binds

@@ -157,6 +157,7 @@ static void image_destroy(virga_context *context, virga_resource *resource)
     for (uint32_t i = 0; image->layer_views && i < image->layers; i++)
         VIRGA_DESTROY(context, ImageView, image->layer_views[i]);
     virga_free(&context->heap, image->layer_views);
+    VIRGA_DESTROY(context, ImageView, image->seen_view);
     VIRGA_DESTROY(context, ImageView, image->view);
     VIRGA_DESTROY(context, Image, image->image);
     virga_memory_release(context, &image->memory);
@@ -178,9 +179,35 @@ error:
     return result;
 }
 
+/* The format may have no storage images, so the view is for samplers alone. */
+static virga_result seen_view_create(virga_context *context, VkFormat seen_as, virga_image_2d *image)
+{
+    virga_result result = VIRGA_OK;
+    const VkImageViewUsageCreateInfo sampled = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO,
+                                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT};
+    const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                        .pNext = &sampled,
+                                        .image = image->image,
+                                        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                        .format = seen_as,
+                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    VK_TRY(context, CreateImageView(context->device, &info, NULL, &image->seen_view));
+    context->objects++;
+error:
+    return result;
+}
+
 virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **created)
+{
+    return virga_image_create_seen_as(context, format, VK_FORMAT_UNDEFINED, extent, layers, usage, aspect, name,
+                                      created);
+}
+
+virga_result virga_image_create_seen_as(virga_context *context, VkFormat format, VkFormat seen_as, VkExtent2D extent,
+                                        uint32_t layers, VkImageUsageFlags usage, VkImageAspectFlags aspect,
+                                        const char *name, virga_image_2d **created)
 {
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     const uint32_t side = extent.width > extent.height ? extent.width : extent.height;
@@ -203,6 +230,7 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
         goto error;
     }
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                    .flags = seen_as ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0,
                                     .imageType = layers ? VK_IMAGE_TYPE_2D : VK_IMAGE_TYPE_3D,
                                     .format = format,
                                     .extent = {extent.width, extent.height, 1},
@@ -222,6 +250,8 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                     &image->view));
     for (uint32_t i = 0; i < layers; i++)
         TRY(view_create(context, image, VK_IMAGE_VIEW_TYPE_2D, aspect, i, 1, &image->layer_views[i]));
+    if (seen_as)
+        TRY(seen_view_create(context, seen_as, image));
     virga_set_name(context, VK_OBJECT_TYPE_IMAGE, (uint64_t)image->image, name);
     *created = image;
     return VIRGA_OK;

@@ -21,6 +21,7 @@ typedef struct virga_image_2d {
     VkImage image;
     VkImageView view;         /* all layers, as a 2D array */
     VkImageView *layer_views; /* one layer each, as plain 2D */
+    VkImageView seen_view;    /* the first layer in another format, to sample from; NULL: there is none */
     uint32_t layers;
     VkExtent2D extent;
     VkFormat format;
@@ -41,6 +42,12 @@ virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBu
 virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **image);
+
+/* The same, and samplers see it in another format of as many bytes, `seen_as`; VK_FORMAT_UNDEFINED: they do not. Passes
+ * write what no storage image can have. */
+virga_result virga_image_create_seen_as(virga_context *context, VkFormat format, VkFormat seen_as, VkExtent2D extent,
+                                        uint32_t layers, VkImageUsageFlags usage, VkImageAspectFlags aspect,
+                                        const char *name, virga_image_2d **image);
 
 /* Whether it is a buffer of the library whose object was destroyed, and which frames in flight may still use. */
 bool virga_buffer_is_retired(const virga_context *context, VkBuffer buffer);

@@ -80,6 +80,8 @@ enum {
     COUNT_CIRCLES_HEIGHT,
     COUNT_COARSE_COLUMNS,
     COUNT_COARSE_ROWS,
+    COUNT_PACKED_COLUMNS,
+    COUNT_PACKED_ROWS,
 };
 
 /* Blocks along a side with a ring around them, up to whole workgroups. */
@@ -109,6 +111,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     count_blocks(counts);
     counts[COUNT_COARSE_COLUMNS] = def->in_place ? (counts[COUNT_COLUMNS] + 1) / 2 : 0;
     counts[COUNT_COARSE_ROWS] = def->in_place ? (counts[COUNT_ROWS] + 1) / 2 : 0;
+    counts[COUNT_PACKED_COLUMNS] = def->in_place ? counts[COUNT_COLUMNS] : 0;
+    counts[COUNT_PACKED_ROWS] = def->in_place ? counts[COUNT_ROWS] : 0;
     counts[COUNT_CIRCLES_WIDTH] = def->max_width - width;
     counts[COUNT_CIRCLES_HEIGHT] = def->max_height - height;
     counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
@@ -147,6 +151,8 @@ static const virga_effect_image images[] = {
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.coarse_fields", AT(coarse), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COARSE_COLUMNS,
      COUNT_COARSE_ROWS, VIRGA_LENS_FIRST_LAYER, VIRGA_FIRST_STORAGE, .per_view = true},
+    {"lens.packed_far", AT(packed), VK_FORMAT_R32_UINT, COLOR, WRITTEN, COUNT_PACKED_COLUMNS, COUNT_PACKED_ROWS, 1,
+     VIRGA_FIRST_STORAGE, .per_view = true, .seen_as = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_PICTURE_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.circles", AT(circles), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -191,10 +197,11 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
     [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
     [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
-    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields */
+    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields, or packed */
     [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},   /* 33 */
     [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},   /* 34 */
     [LENS_BIND_COARSE_FAR] = {SAMPLED, FRAGMENT},    /* 35 */
+    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},   /* 36 */
 };
 
 static const virga_effect_layout layouts[] = {

@@ -239,6 +239,23 @@ static virga_bound one_of(const virga_image_2d *image, uint32_t layer, virga_bou
         .view = image->layer_views[layer], .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
 }
 
+/* Whether the far field has 32 bits, which are enough for a color alone. Layers have to know what is near before them,
+ * and wide discs how much of the coarse field is to be added. */
+static bool is_packed(const lens_prepared *prepared)
+{
+    return prepared->tiles && !prepared->wide && !prepared->layers;
+}
+
+/* The far field: written, and seen by draws. */
+static void bind_far(const virga_lens *lens, const virga_bound *without, virga_bound *bound)
+{
+    const VkSampler linear = lens->base.context->linear;
+    bound[LENS_BIND_FAR] = one_of(lens->def.circles ? NULL : lens->fields, VIRGA_LENS_FAR, *without, linear);
+    bound[LENS_BIND_PACKED_WRITTEN] = one_of(lens->packed ? lens->packed : lens->blocks, 0, *without, linear);
+    if (lens->packed && is_packed(&lens->prepared[lens->base.slot]))
+        bound[LENS_BIND_FAR].view = lens->packed->seen_view;
+}
+
 static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_view *view,
                                  const virga_lens_layer *layers, uint32_t layer_count)
 {
@@ -254,7 +271,7 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_FIELDS_WRITTEN] = bound[LENS_BIND_FIELDS] = bound[LENS_BIND_CIRCLES] = out;
     bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
         lens->def.circles ? out : in_general(lens->blocks, context->nearest);
-    bound[LENS_BIND_FAR] = one_of(lens->def.circles ? NULL : lens->fields, VIRGA_LENS_FAR, out, context->linear);
+    bind_far(lens, &out, bound);
     bound[LENS_BIND_COARSE_WRITTEN] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
     bound[LENS_BIND_COARSE_NEAR] = one_of(lens->coarse, VIRGA_LENS_NEAR, out, context->linear);
     bound[LENS_BIND_COARSE_FAR] = one_of(lens->coarse, VIRGA_LENS_FAR, out, context->linear);

@@ -32,6 +32,7 @@ enum {
     LENS_BIND_COARSE_WRITTEN,
     LENS_BIND_COARSE_NEAR,
     LENS_BIND_COARSE_FAR,
+    LENS_BIND_PACKED_WRITTEN,
     LENS_BINDINGS,
 };
 
@@ -65,6 +66,7 @@ struct virga_lens {
     VIRGA_PER_VIEW(virga_image_2d, picture); /* NULL if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, fields);
     VIRGA_PER_VIEW(virga_image_2d, coarse);  /* likewise at half of that resolution; NULL unless def.in_place */
+    VIRGA_PER_VIEW(virga_image_2d, packed);  /* the far field in 32 bits; NULL unless def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
     virga_image_2d *aperture, *samples, *spreads, *blocks, *blank_depth, *blank_color;
     virga_ring view_ring;

@@ -59,6 +59,9 @@ layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[];
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 #ifdef WIDE_PASS
 layout(set = 0, binding = 33, rgba16f) uniform writeonly image2DArray coarse_fields;
+#else
+layout(set = 0, binding = 36, r32ui) uniform writeonly uimage2D packed_far; // see is_packed in lens_draw.c
+#include "shared_exponent.glsl"
 #endif
 
 const int MOST = (TILES * TILE + 2 * VIRGA_LENS_FINE) * (TILE + 2 * VIRGA_LENS_FINE); // texels
@@ -109,6 +112,11 @@ void write_field(ivec3 at, vec4 value)
 #ifdef WIDE_PASS
     if (COARSE) {
         imageStore(coarse_fields, at, value);
+        return;
+    }
+#else
+    if (ALONE && view.layers == 0u && at.z == VIRGA_LENS_FAR) {
+        imageStore(packed_far, at.xy, uvec4(shared_exponent(value.rgb)));
         return;
     }
 #endif

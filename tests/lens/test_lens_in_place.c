@@ -26,7 +26,11 @@ static float *run_apart(const lens_kind *kind, float max_radius_px)
 static const virga_target_kind target_kinds[] = {VIRGA_TARGET_RENDER_PASS, VIRGA_TARGET_DYNAMIC};
 
 /* Half floats have 11 bits, and are truncated on some devices. What is beneath and what is blended over it are rounded
- * one after the other. */
+ * one after the other. One pass for narrow discs without layers keeps the far field with nine bits for each channel,
+ * which are rounded: up to 1 / 512 of the largest one. */
+#define HALF_FLOATS     (3.0 / 1024)
+#define SHARED_EXPONENT (HALF_FLOATS + 2.0 / 1024)
+
 static void compare_to_an_image_of_its_own(virga_pass_variants variants, float max_radius_px)
 {
     static const lens_kind frames[] = {{.aperture_scale = 1},
@@ -50,7 +54,7 @@ static void compare_to_an_image_of_its_own(virga_pass_variants variants, float m
             for (size_t p = 0; p < 4u * WIDTH * HEIGHT; p++)
                 worst = fmax(worst, fabs((double)h.f.result[p] - (double)apart[p]) / (0.01 + fabs((double)apart[p])));
             printf("frame %zu, target %d: up to %.2g apart\n", i, k, worst);
-            assert_true(worst < 3.0 / 1024);
+            assert_true(worst < (variants == VIRGA_VARIANTS_GPU ? SHARED_EXPONENT : HALF_FLOATS));
             close_host(&h);
         }
         free(apart);
@@ -87,7 +91,7 @@ static void noise_at_one_depth_is_the_same_from_one_pass(void **state)
     for (int i = 0; i < 8; i++) {
         host h;
         uint32_t hash = 3;
-        double worst = 0;
+        double worst = 0, light[2] = {0};
         effect_fixture_variants = i & 1 ? VIRGA_VARIANTS_GPU : VIRGA_VARIANTS_SOFTWARE;
         REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
         h.f.settings.max_radius_px = 16;
@@ -95,10 +99,15 @@ static void noise_at_one_depth_is_the_same_from_one_pass(void **state)
             for (uint32_t x = 0; x < WIDTH; x++)
                 lens_paint(&h.f.scene, x, y, lens_gray(&hash), depths_m[i / 2]);
         run(&h);
-        for (size_t p = 0; p < 4u * WIDTH * HEIGHT && i & 1; p++)
+        for (size_t p = 0; p < 4u * WIDTH * HEIGHT && i & 1; p++) {
             worst = fmax(worst, fabs((double)h.f.result[p] - (double)many[p]) / (0.01 + fabs((double)many[p])));
-        printf("depth %d: up to %.2g apart\n", i / 2, worst);
-        assert_true(worst < 3.0 / 1024);
+            light[0] += (double)many[p];
+            light[1] += (double)h.f.result[p];
+        }
+        printf("depth %d: up to %.2g apart, light %.2g\n", i / 2, worst, i & 1 ? light[1] / light[0] - 1 : 0);
+        assert_true(worst < SHARED_EXPONENT);
+        if (i & 1) /* half floats that are truncated lose 0.0003 of it on average */
+            assert_float_equal(light[1] / light[0], 1, 5e-4);
         memcpy(many, h.f.result, sizeof many);
         close_host(&h);
     }
