@@ -45,15 +45,16 @@ struct even_sums {
 };
 
 // Two rows, as far above the texels as below them, or the row of the texels themselves. `above`, `below`: the samples
-// in the first texel's column; `down`: how far the rows are away, squared. From the middle between both texels, columns
-// x and 1 - x are alike: the first texel sees column x at x, and the second one column 1 - x.
-void gather_rows(const bool two, int above, int below, float down, float radius, inout even_sums to)
+// in the first texel's column; `down`: how far the rows are away, squared; `ends`: how far discs reach, and how far they
+// are whole, squared. From the middle between both texels, columns x and 1 - x are alike: the first texel sees column x
+// at x, and the second one column 1 - x.
+void gather_rows(const bool two, int above, int below, float down, float edge, vec2 ends, inout even_sums to)
 {
-    const float edge = radius + 0.5, core = radius - 0.5;
-    const float whole = floor(sqrt(max(core * core - down, 0.0))); // columns on each side that both cover wholly
+    const vec2 sides = sqrt(max(ends - down, 0.0));
+    const float whole = floor(sides.y); // columns on each side that both cover wholly
     int left_above = above, right_above = above + 1, left_below = below, right_below = below + 1;
     const int core_end = right_above + int(whole);
-    const int end = right_above + int(sqrt(max(edge * edge - down, 0.0))) + 1;
+    const int end = right_above + int(sides.x) + 1;
     for (; right_above < core_end; right_above++) {
         to.of_both += kept_color(left_above) + kept_color(right_above);
         left_above--;
@@ -88,12 +89,14 @@ void gather_even(ivec2 texel, float radius, out vec4 sums[2])
 {
     even_sums to = even_sums(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
     int above = row_of(texel) + texel.x, below = above;
-    gather_rows(false, above, below, 0.0, radius, to);
-    const float last = floor(radius + 0.5);
+    const float edge = radius + 0.5;
+    const vec2 ends = vec2(edge * edge, (radius - 0.5) * (radius - 0.5));
+    gather_rows(false, above, below, 0.0, edge, ends, to);
+    const float last = floor(edge);
     for (float y = 1.0; y <= last; y += 1.0) {
         above -= kept_size.x;
         below += kept_size.x;
-        gather_rows(true, above, below, y * y, radius, to);
+        gather_rows(true, above, below, y * y, edge, ends, to);
     }
     sums[0] = vec4(to.of_both + to.first, to.weight);
     sums[1] = vec4(to.of_both + to.second, to.weight);

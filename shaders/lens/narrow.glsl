@@ -412,14 +412,15 @@ texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float
     return texel_sample(sum * per_weight, radius * per_weight, before);
 }
 
-// From colors as they are stored. Where all of them are finite nothing has to be done about it, but one look.
+// From colors as they are stored. Where one of them is infinite or no number, so is their sum, or what is left of it.
+// Where their sum is no more than the largest half float, nothing has to be done about them.
 texel_sample stored_sample(vec3 a, vec3 b, vec3 c, vec3 d, texel_circles of)
 {
     if (!SCENE_LINEAR)
         return mean_sample(scene_light(a), scene_light(b), scene_light(c), scene_light(d), of);
     texel_sample own = mean_sample(a, b, c, d, of);
-    const vec3 most = max(max(abs(a), abs(b)), max(abs(c), abs(d)));
-    if (!(max(max(most.x, most.y), most.z) <= 65504.0) || isnan(own.color.r + own.color.g + own.color.b))
+    const float most = max(max(abs(own.color.r), abs(own.color.g)), abs(own.color.b));
+    if (!(of.weight * most <= 65504.0) || isnan(own.color.r + own.color.g + own.color.b))
         own = mean_sample(finite(a), finite(b), finite(c), finite(d), of);
     return own;
 }
