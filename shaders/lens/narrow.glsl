@@ -547,6 +547,18 @@ void empty_corner(int corner)
         write_field(ivec3(texel, VIRGA_LENS_FAR), vec4(0.0, 0.0, 0.0, 1.0));
 }
 
+// The far fields of two texels, where there is nothing else. FINER: of a wide one the draw adds the coarse field, see
+// fill_of_both.
+void store_even(ivec2 texel, int at, vec4 sums[2])
+{
+    const float per_weight = 1.0 / sums[0].a; // the same of both
+    for (int i = 0; i < 2; i++) {
+        const float wide = FINER ? coarseness(radius_at(at + i) * float(STEP)) : 0.0;
+        if (is_there(texel + ivec2(i, 0)))
+            store(texel + ivec2(i, 0), vec4((1.0 - wide) * per_weight * sums[i].rgb, wide), vec4(0.0), vec4(0.0));
+    }
+}
+
 void gather_both(int pair, vec2 reach)
 {
     const ivec2 texel = first_of_pair(pair);
@@ -556,11 +568,8 @@ void gather_both(int pair, vec2 reach)
     const bool gathers = !SHAPED && max(reach.x, reach.y) > POINT;
     if (gathers && is_even()) {
         gather_even(texel, 0.5 * (own.x + own.y), known);
-        if (!COARSE && !FINER && !has_near) { // nothing but that is here
-            const float per_weight = 1.0 / known[0].a; // the same of both
-            for (int i = 0; i < 2; i++)
-                if (is_there(texel + ivec2(i, 0)))
-                    store(texel + ivec2(i, 0), vec4(known[i].rgb * per_weight, 0.0), vec4(0.0), vec4(0.0));
+        if (reach.x <= POINT) { // nothing but that is here
+            store_even(texel, at, known);
             return;
         }
     } else if (gathers) {
