@@ -16,8 +16,9 @@
 // at a time, FINER. So it never needs the coarse fields of others: the draw mixes both.
 //
 // Bytes that have to move, for each pixel of 8 bytes that is out of focus: depth 4, color 8, the far field written and
-// read 2 x 8 / 4 (half resolution) or 2 x 8 / 16 (a quarter), the picture 8. These are 24 bytes or 21, so 3 fills of
-// half floats where all is out of focus, 2.63 with wide discs, and half a fill where nothing is.
+// read 2 x 4 / 4 (half resolution, in 32 bits) or 2 x 8 / 16 (a quarter), the picture 8. These are 22 bytes or 21, so
+// 2.75 fills of half floats where all is out of focus, 2.63 with wide discs, and half a fill where nothing is. With
+// layers, and where narrow and wide discs are together, the finer far field has 64 bits.
 //
 // A workgroup has two tiles beside each other, and keeps the samples of those that something reaches, and of so much
 // around them as reaches them. Tiles that nothing reaches have an empty rim, which is read with the fields of the tiles

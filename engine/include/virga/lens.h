@@ -62,7 +62,7 @@ typedef struct virga_lens_def {
     /* 0 or 1; needs half_resolution, and no circles. 1: for a host whose target already holds the scene. Draws blend
      * over it what is out of focus, and layers, see virga_lens_draw, in place of writing all of a picture. So the cost
      * follows what is out of focus. There is no picture (virga_lens_picture), no part (virga_lens_draw_part) and no
-     * style of the paper. Memory: 7 bytes per pixel and view less. Default 0. */
+     * style of the paper. Memory: 6 bytes per pixel and view less. Default 0. */
     uint32_t in_place;
 } virga_lens_def;
 
@@ -205,8 +205,10 @@ VIRGA_API virga_result virga_lens_attach(virga_lens *lens, const virga_target *t
  * does not read view.color; it reads view.depth, and color and depth of layers.
  *  - Squares of 32 x 32 pixels that nothing out of focus reaches keep their bits, and are neither read nor written.
  *    Layers are put over all of the viewport.
- *  - The result is that of the other way but for the rounding of the target's format. Alpha is blended as color is, so
- *    1 stays 1. With several samples a pixel, what is in focus keeps its samples.
+ *  - The result is that of the other way but for the rounding of the target's format. On GPUs, without layers and with
+ *    max_radius_px up to 16, what is out of focus has nine bits for each channel, rounded to 1/512 of the largest one,
+ *    and no colors below 0. Alpha is blended as color is, so 1 stays 1. With several samples a pixel, what is in focus
+ *    keeps its samples.
  *  - A pixel of the target that is NaN or infinite stays so or becomes NaN. It does not spread.
  *  - VIRGA_ERROR_INVALID for a target with VIRGA_ENCODING_SRGB, as light does not add up there; _SRGB formats work.
  *  - Draw once: a second draw blurs the edges of what is out of focus again. */
