@@ -45,9 +45,9 @@ struct even_sums {
 };
 
 // Two rows, as far above the texels as below them, or the row of the texels themselves. `above`, `below`: the samples
-// in the first texel's column; `down`: how far the rows are away, squared; `ends`: how far discs reach, and how far they
-// are whole, squared. From the middle between both texels, columns x and 1 - x are alike: the first texel sees column x
-// at x, and the second one column 1 - x.
+// in the first texel's column; `down`: how far the rows are away, squared; `ends`: how far discs reach, and how far
+// they are whole, squared. From the middle between both texels, columns x and 1 - x are alike: the first texel sees
+// column x at x, and the second one column 1 - x.
 void gather_rows(const bool two, int above, int below, float down, float edge, vec2 ends, inout even_sums to)
 {
     const vec2 sides = sqrt(max(ends - down, 0.0));
