@@ -179,9 +179,10 @@ static void fill_time(const virga_glass *glass, double time_s, virga_glass_pictu
 static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
 {
     const virga_glass_settings *s = &glass->settings;
-    const double angle_deg = glass_rest_deg(s);
+    const double angle_deg = glass_seen_deg(s);
     look->drop_nl_of_m3 = (float)(glass_cap_volume(angle_deg) * 1e12);
     look->cap_height = (float)tan(angle_deg * PI / 360);
+    look->fog_cap_height = (float)tan(glass_rest_deg(s) * PI / 360);
     look->particle_m = s->particle_radius_mm * 1e-3f;
     look->particles_as_given = s->style == VIRGA_GLASS_STYLE_PAPER;
     look->impact_s = s->impact_s;

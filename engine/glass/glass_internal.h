@@ -97,8 +97,10 @@ struct virga_glass {
 /* Volume (m^3) of a spherical cap with a base radius of 1 m and this contact angle:
  * pi (2 - 3 cos + cos^3) / (3 sin^3). */
 double glass_cap_volume(double angle_deg);
-/* The contact angle of a drop at rest: the mean of the advancing and the receding angle. */
+/* The contact angle of a drop that moves or just stays: the mean of the advancing and the receding angle. */
 double glass_rest_deg(const virga_glass_settings *settings);
+/* That of a drop on the picture: a drop whose rim uneven glass holds is flatter. */
+double glass_seen_deg(const virga_glass_settings *settings);
 /* See virga_glass_tick_gpu. */
 double glass_hold(const virga_glass_settings *settings);
 double glass_drag(const virga_glass_settings *settings);

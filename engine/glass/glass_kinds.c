@@ -52,6 +52,23 @@ double glass_rest_deg(const virga_glass_settings *settings)
     return 0.5 * ((double)settings->advancing_deg + (double)settings->receding_deg);
 }
 
+/* A drop that lands spreads wider than it stays, and draws back until its line holds: at the receding angle. So does
+ * film that breaks into beads. Then gravity leans it forward. Its rear stays as it is, and its front gets as steep as
+ * the force needs (Furmidge 1962, as in glass_hold): cos front = cos receding - x (cos receding - cos advancing), where
+ * x is the part of the force that would make it run. Weight goes with the cube of the radius and hold with the radius,
+ * so x = 1/4 for a drop of half the radius that runs on a vertical pane, which stands for those on a pane: most are
+ * smaller, and the largest are seen the most. Its profile is that of the mean of both angles, and its front is higher
+ * by gravity (sag_at in balls.comp).
+ *
+ * Glass that holds no rims has drops with the mean of the advancing and the receding angle, as those that run have. */
+double glass_seen_deg(const virga_glass_settings *settings)
+{
+    const double receding_deg = (double)settings->receding_deg, pinning = (double)settings->pinning;
+    const double receding = cos(receding_deg * PI / 180), advancing = cos((double)settings->advancing_deg * PI / 180);
+    const double front_deg = acos(receding - 0.25 * (receding - advancing)) * 180 / PI;
+    return (1 - pinning) * glass_rest_deg(settings) + pinning * 0.5 * (receding_deg + front_deg);
+}
+
 /* The adhesion force per radius. Furmidge 1962: a drop of width 2 a starts to move when the force along the surface
  * is k sigma 2 a (cos r - cos a). ElSherbini and Jacobi 2006: k = 24 / pi^3, because the contact angle varies along the
  * contact line. */

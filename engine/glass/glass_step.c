@@ -220,7 +220,8 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->meander = s->meander;
     out->path_ease = s->path_ease;
     out->path_dry_s = s->path_dry_s;
-    out->merge_distance = s->merge_distance;
+    /* Bases meet as wide as they are seen. Radii of a tick are those of drops that move. */
+    out->merge_distance = s->merge_distance * (float)cbrt(cap / glass_cap_volume(glass_seen_deg(s)));
     out->tail_spacing_m = s->tail_spacing_m;
     out->tail_share = TAIL_SHARE;
     out->tail_max_radius_m = s->tail_max_radius_mm * 1e-3f;

@@ -110,6 +110,7 @@ struct virga_glass_picture_gpu {
     float fog_uneven;   /* of the logarithm of that, per standard deviation of a cell's affinity */
     uint fog_offset;    /* start of its quads' vertex indices, after all else: without and with single droplets */
     uint fog_indices;   /* max number of either */
+    float fog_cap_height; /* of a droplet, in radii of its base: droplets grow, so their rims are not drawn back */
     float fog_single_m; /* m, radius from which droplets are seen */
 };
 

@@ -17,7 +17,7 @@ typedef struct ball {
 /* A drop at rest on an upright pane, so that it sags downwards. */
 static inline ball ball_of(const shot *s, const virga_glass_drop_gpu *drop)
 {
-    const double angle = glass_rest_deg(&s->settings), flat = tan(angle * M_PI / 360);
+    const double angle = glass_seen_deg(&s->settings), flat = tan(angle * M_PI / 360);
     ball b = {.middle = {(double)drop->position[0], (double)drop->position[1]}};
     b.radius = cbrt(drop->water_nl * 1e-12 / glass_cap_volume(angle));
     b.height = b.radius * flat;

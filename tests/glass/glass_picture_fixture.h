@@ -158,7 +158,7 @@ static inline virga_glass_drop_gpu *shot_drop(shot *s, double u, double v, uint3
 /* Water (nl) of a drop at rest whose base has this radius. */
 static inline uint32_t shot_water(const shot *s, double radius_m)
 {
-    return (uint32_t)(glass_cap_volume(glass_rest_deg(&s->settings)) * radius_m * radius_m * radius_m * 1e12 + 0.5);
+    return (uint32_t)(glass_cap_volume(glass_seen_deg(&s->settings)) * radius_m * radius_m * radius_m * 1e12 + 0.5);
 }
 
 static inline void shot_forget(shot *s)

@@ -289,7 +289,7 @@ static void fine_film_covers_what_its_beads_do(void **state)
     for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++)
         s.film[i] = 20;
     shot_draw(&s, false);
-    const double cap = glass_cap_volume(glass_rest_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
+    const double cap = glass_cap_volume(glass_seen_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
     const double one = M_PI * pow(20e-12 / cap, 2.0 / 3) / (cell * cell);
     double mean = 0, expected = 0;
     for (int i = 0; i < 1000; i++) {
@@ -427,7 +427,7 @@ static uint32_t count_pieces(const shot *s)
 /* Half the width of a thread, by its cross-section: 4/3 h a^2 with the height h over its half width a. */
 static double half_width(const shot *s, double nl)
 {
-    return sqrt(0.75 * nl * 1e-12 / (tan(glass_rest_deg(&s->settings) * M_PI / 360) * 0.002));
+    return sqrt(0.75 * nl * 1e-12 / (tan(glass_seen_deg(&s->settings) * M_PI / 360) * 0.002));
 }
 
 /* Thin threads break sooner than wide ones, and into more beads: 7.4 half widths apart, one or two of them in a cell of

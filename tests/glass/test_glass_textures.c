@@ -115,7 +115,7 @@ static void check_flat(textured *t, double side)
         s->settings.texture_shape = hemisphere ? VIRGA_GLASS_TEXTURE_HEMISPHERE : VIRGA_GLASS_TEXTURE_CAP;
         shot_aim(s, (const double[3]){0.02, 0.05, side * 0.12}, (const double[3]){0.06, 0.02, 0}, 70);
         const float *texels = draw_and_read_textures(t);
-        const double cap = hemisphere ? 0 : tan(glass_rest_deg(&s->settings) * M_PI / 360);
+        const double cap = hemisphere ? 0 : tan(glass_seen_deg(&s->settings) * M_PI / 360);
         for (uint32_t i = 0; i < POINTS * POINTS; i++)
             compared += compare_texture(s, texels, i % POINTS, i / POINTS, cap);
         REQUIRE(compared > 700);
@@ -183,7 +183,7 @@ static bool bent_expected(const shot *s, const bent_frame *f, const double at[2]
 /* The two by two inner points of the mesh; returns how many texels could be compared. */
 static int compare_bent(const shot *s, const float *texels, const float *positions)
 {
-    const double cap = tan(glass_rest_deg(&s->settings) * M_PI / 360);
+    const double cap = tan(glass_seen_deg(&s->settings) * M_PI / 360);
     int compared = 0;
     for (uint32_t i = 0; i < 4 * TEXELS * TEXELS; i++) {
         const uint32_t column = 1 + i / (TEXELS * TEXELS) % 2, row = 1 + i / (2 * TEXELS * TEXELS);

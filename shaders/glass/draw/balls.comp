@@ -47,19 +47,17 @@ vec2 gravity_at(vec2 middle)
 // A cap on an inclined surface, for small slopes: surface tension x laplacian of the height + density x gravity x
 // distance downhill is constant, and the height is 0 at the rim. The solution is the level cap times 1 + s x, with x
 // the distance downhill over the radius and s = Bond number / (8 height over radius).
-vec2 sag_at(vec2 middle, float radius)
+// `bond`: that number by the radius, with the direction of gravity.
+vec2 sag_of(vec2 bond)
 {
-    const vec2 s = gravity_at(middle) * (998.2 / 0.0728 / 8.0) * radius * radius / look.cap_height;
+    const vec2 s = bond * (1.0 / 8.0 / look.cap_height);
     return s * min(1.0, 0.6 / max(length(s), 1e-6));
 }
 
 // The strain of a drop on an inclined surface, which is longer than it is wide: by 1 + 0.096 x its
 // Bond number (ElSherbini and Jacobi 2004). That number, density x gravity along the pane x diameter^2 / surface
-// tension, is 32 x sag x height over radius.
-vec2 pinned_strain(vec2 sag)
-{
-    return strain_along(sag, log(1.0 + 0.096 * 32.0 * look.cap_height * look.pinning * length(sag)));
-}
+// tension, is four times that by the radius.
+vec2 pinned_strain(vec2 bond) { return strain_along(bond, log(1.0 + 0.096 * 4.0 * look.pinning * length(bond))); }
 
 // A drop that has just landed: three sub-balls around the main one, which flow into it (section 4.7). All are caps, so
 // radii go with the cube root of the water. Their shares, distances and angles are random, so two may look like one;
@@ -172,7 +170,8 @@ void emit_drop(uint slot)
     middles[0] = middle;
     radii[0] = radius;
     sub_peak = 1.0;
-    const vec2 sag = particle ? vec2(0.0) : sag_at(middles[0], radius);
+    const vec2 bond = particle ? vec2(0.0) : gravity_at(middle) * (998.2 / 0.0728 * radius * radius);
+    const vec2 sag = sag_of(bond);
     const vec2 velocity = vec2(at.velocity[0], at.velocity[1]);
     const float age = max(at.age_s + look.late_s, 0.0);
     const bool lands = !particle && age < look.impact_s && (at.kind & VIRGA_GLASS_TAIL) == 0u;
@@ -183,7 +182,7 @@ void emit_drop(uint slot)
     if (!particle && !lands)
         strain = shape_moved(at, runs);
     // Without pinning outlines of balls are circles: see PINNED in height.glsl.
-    strain = look.pinning > 0.0 ? strain + pinned_strain(sag) : vec2(0.0);
+    strain = look.pinning > 0.0 ? strain + pinned_strain(bond) : vec2(0.0);
     float left = 1.0;
     if (MODE != 0u) {
         const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);

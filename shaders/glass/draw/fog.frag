@@ -168,12 +168,12 @@ Seen droplet_here(float cover, float radius, float pixel_m)
 vec4 droplet_light(Seen seen, float pixel_m)
 {
     const vec3 d = normalize(position), flat_normal = cross(along_u, along_v);
-    const float steepest = sin(2.0 * atan(look.cap_height)), x = min(length(seen.way), 0.999);
+    const float steepest = sin(2.0 * atan(look.fog_cap_height)), x = min(length(seen.way), 0.999);
     const vec2 way = seen.way * (x / max(length(seen.way), 1e-4));
     const vec2 leans = way * steepest;
     const float up = sqrt(max(1.0 - dot(leans, leans), 1e-3));
     const vec3 normal = normalize(up * flat_normal + leans.x * along_u + leans.y * along_v);
-    const float height = look.cap_height * seen.radius * (1.0 - x * x); // of a flat cap
+    const float height = look.fog_cap_height * seen.radius * (1.0 - x * x); // of a flat cap
     const Water water = Water(1.0, 0.0, height, 1.0, -leans / up, LENS.y);
     if (IS_OPAQUE)
         return vec4(water_light(path_through(d, water, pixel_m, true), d, water), 1.0) * seen.cover;
