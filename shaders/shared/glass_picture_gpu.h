@@ -105,13 +105,13 @@ struct virga_glass_picture_gpu {
     float opening_turn;   /* rad, of the blades */
     float opening_area;   /* of the opening whose corners are 1 from its middle */
     /* Condensation. */
-    float fog_m_of_pl;  /* m, mean thickness of a picolitre on a cell */
-    float fog_dense;    /* 1/m^2, droplets that begin on glass of mean affinity */
-    float fog_uneven;   /* of the logarithm of that, per standard deviation of a cell's affinity */
-    uint fog_offset;    /* start of its quads' vertex indices, after all else: without and with single droplets */
-    uint fog_indices;   /* max number of either */
+    float fog_m_of_pl;    /* m, mean thickness of a picolitre on a cell */
+    float fog_dense;      /* 1/m^2, droplets that begin on glass of mean affinity */
+    float fog_uneven;     /* of the logarithm of that, per standard deviation of a cell's affinity */
+    uint fog_offset;      /* start of its quads' vertex indices, after all else: without and with single droplets */
+    uint fog_indices;     /* max number of either */
     float fog_cap_height; /* of a droplet, in radii of its base: droplets grow, so their rims are not drawn back */
-    float fog_single_m; /* m, radius from which droplets are seen */
+    float fog_single_m;   /* m, radius from which droplets are seen */
 };
 
 /* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y

@@ -279,8 +279,8 @@ static void drops_at_rest_become_one_where_their_bases_meet(void **unused)
     for (int i = 0; i < 2; i++) { /* drops whose rims are held are flatter, and so wider */
         open_even(NULL);
         f.settings.merge_distance = f.settings.pinning = 1;
-        const double wider = cbrt(glass_cap_volume(glass_rest_deg(&f.settings)) /
-                                  glass_cap_volume(glass_seen_deg(&f.settings)));
+        const double wider =
+            cbrt(glass_cap_volume(glass_rest_deg(&f.settings)) / glass_cap_volume(glass_seen_deg(&f.settings)));
         REQUIRE(wider > 1.05);
         assert_int_equal(land_two(radius, (i ? 1.98 : 2.02) * wider * radius, 1, &drop), i ? 1 : 2);
         glass_fixture_close(&f);

@@ -330,9 +330,8 @@ typedef struct virga_glass_settings {
     /* [0.1; 600] time in which a path dries (s). Default 8. */
     float path_dry_s;
 
-    /* [0; 2] drops merge when the distance of their middles is below this share of the sum of the radii of their bases,
-     * as they are seen. 1 is where the bases meet; up to 1.3 the picture shows a neck between them. 0: only within one
-     * cell, as in Goto et al. Default 1.2. */
+    /* [0; 2] drops merge when the distance of their middles is below this share of the sum of the radii of their bases.
+     * 1: where these meet on the picture, with necks up to 1.3. 0: in one cell, as in Goto et al. Default 1.2. */
     float merge_distance;
 
     /* ---- What drops leave behind. */
@@ -425,12 +424,11 @@ typedef struct virga_glass_settings {
     /* [0.05; 0.95] density at which a drop ends. Default 0.5. */
     float threshold;
 
-    /* [0; 1] how firmly uneven glass holds the rims of drops. Their outlines vary, each with the area of its round cap;
-     * drops are longer than wide on an inclined pane, by 1 + 0.096 x Bond number at 1 (ElSherbini and Jacobi 2004), and
-     * by 1.2 at 1 once they ran or merged. At 1 they are as flat as drops that landed and drew back: their rear is at
-     * the receding angle, and their front at that which holds a drop of half the radius that runs. So they are wider,
-     * and meet sooner; the rest changes the picture only. 0: drops at rest are circles, and their angle is the mean of
-     * both. Costs time for each texel with drops. Default by kind: 0 (paper), 0.8 (clean), 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
+    /* [0; 1] how firmly uneven glass holds the rims of drops. 1: outlines vary, each with the area of its round cap;
+     * drops are longer than wide, by 1 + 0.096 x Bond number (ElSherbini and Jacobi 2004), by 1.2 once they ran or met;
+     * and as flat as what drew back: the receding angle behind, in front what holds half of the radius that runs. So
+     * they are wider and merge sooner; all else changes the picture only. 0: circles with the mean angle. Costs time
+     * for texels with drops. By kind: 0 (paper), 0.8 (clean), 1 (dirty), 0.15 (coated), 0.6 (metal), 0.1 (leaf). */
     float pinning;
 
     /* [0; 2] time in which a drop that has landed draws in its three sub-balls (s). Default 0.25. */

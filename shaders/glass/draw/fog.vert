@@ -48,7 +48,8 @@ vec3 light_behind()
     if (!HAS_PLATE)
         return environment(normalize(position), vec2(1.0));
     const vec2 uv = 0.5 * gl_Position.xy / max(gl_Position.w, 1e-5) + 0.5;
-    const float contact = 2.0 * atan(look.fog_cap_height), reach_px = (WATER - 1.0) * contact / max(view.pixel_angle, 1e-6);
+    const float contact = 2.0 * atan(look.fog_cap_height);
+    const float reach_px = (WATER - 1.0) * contact / max(view.pixel_angle, 1e-6);
     const vec2 reach = reach_px / vec2(view.viewport[2], view.viewport[3]);
     // the copy whose texels are about as wide as one sample's part of the disc
     const float texels = 0.5 * max(reach.x, reach.y) * float(VIRGA_GLASS_COPY);
