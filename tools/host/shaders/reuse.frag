@@ -1,6 +1,7 @@
 #version 460
 // reuse.frag - the depth that a sub-frame is shaded against: its own where it is shaded. Elsewhere one that nothing is
-// equal to: the nearest of all where it keeps what is there, and REUSE_TAKEN where it takes another pixel.
+// equal to: the nearest of all where it keeps what is there, and HOST_REUSE_TAKEN where it takes another
+// pixel.
 #extension GL_GOOGLE_include_directive : require
 #include "reuse.glsl"
 
