@@ -514,7 +514,7 @@ static host_moving find_moving(const host_renderer *r, const host_camera *camera
 }
 
 /* Over the plate of the sub-frame before. See reuse.h. */
-static void draw_following(drawing *d, const host_target *target, const host_camera *camera)
+static void draw_following(drawing *d, const host_camera *camera)
 {
     const host_renderer *r = d->renderer;
     const float shift_px[2] = {r->found_px[0] - camera->jitter_px[0], r->found_px[1] - camera->jitter_px[1]};
@@ -522,8 +522,8 @@ static void draw_following(drawing *d, const host_target *target, const host_cam
     draw_entries(d, HOST_PIPELINE_ID);
     draw_entries(d, HOST_PIPELINE_CUTOUT_ID);
     const host_moving moving = find_moving(r, camera);
-    host_reuse_end_depth(&r->reuse, d->cmd, target, shift_px, &moving);
-    host_reuse_begin_shade(&r->reuse, d->cmd);
+    host_reuse_end_depth(&r->reuse, d->cmd, shift_px, &moving);
+    host_reuse_begin_shade(&r->reuse, d->cmd, shift_px);
     bind_frame(r, d->cmd);
     d->bound = VK_NULL_HANDLE;
     shade(d);
@@ -552,7 +552,7 @@ bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
         return false;
     const bool shares = may_share(r, target, camera);
     if (shares && camera->follows && r->found)
-        draw_following(&d, target, camera);
+        draw_following(&d, camera);
     else
         draw_first(&d, target, camera, shares);
     host_label_end(r->device, cmd);

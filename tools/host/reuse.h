@@ -14,7 +14,10 @@
  *
  *     plate -> host_reuse_find
  *     for each of the others: host_reuse_begin_depth, draw depth and ids, host_reuse_end_depth,
- *         host_reuse_begin_shade, draw where the depth is equal -> vkCmdEndRenderPass */
+ *         host_reuse_begin_shade, draw where the depth is equal -> vkCmdEndRenderPass
+ *
+ * What a pass reads is in images and not in buffers, and a draw writes what has a value for each pixel: software Vulkan
+ * reads and writes buffers lane by lane. */
 #ifndef VIRGA_HOST_REUSE_H
 #define VIRGA_HOST_REUSE_H
 
@@ -30,15 +33,18 @@ uint32_t host_reuse_share(uint32_t samples);
 typedef struct host_reuse {
     uint32_t width, height;                  /* 0: not created */
     host_image depth;                        /* that shading is tested against */
-    host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */
-    host_buffer choices;                     /* for each pixel, HOST_REUSE_SHADED or the place of what it takes */
-    host_buffer slopes;                      /* of the first sub-frame's depth: two floats for each pixel */
+    host_image id;                           /* of the sub-frame that is drawn */
+    host_image slopes;                       /* of the first sub-frame's depth */
     host_image first[HOST_PLATE_COLORS + 1]; /* the sub-frame that was shaded everywhere: 56 bytes a pixel */
+    host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */
+    host_image kinds;                        /* for each block, whether it is kept, taken or shaded */
     VkRenderPass pass; /* keeps the plate's colors, clears depth; compatible with that of the plate */
+    VkRenderPass slope_pass;
     VkFramebuffer depth_framebuffer, shade_framebuffer; /* with the plate's depth, and with the other */
+    VkFramebuffer slope_framebuffer;
     VkSampler sampler;
     host_bindings bindings;
-    VkPipeline find, check, slope, choose, fill, take;
+    VkPipeline find, check, slope, take;
 } host_reuse;
 
 /* For one target, which must outlive it. On failure call host_reuse_destroy too. */
@@ -54,8 +60,8 @@ void host_reuse_find(const host_reuse *reuse, VkCommandBuffer cmd, const host_ta
 /* Begin passes; they set viewport and scissor. `end_depth` ends the first. `shift_px`: the jitter of the sub-frame that
  * was shaded everywhere, minus that of this one. */
 void host_reuse_begin_depth(const host_reuse *reuse, VkCommandBuffer cmd);
-void host_reuse_end_depth(const host_reuse *reuse, VkCommandBuffer cmd, const host_target *target,
-                          const float shift_px[2], const host_moving *moving);
-void host_reuse_begin_shade(const host_reuse *reuse, VkCommandBuffer cmd);
+void host_reuse_end_depth(const host_reuse *reuse, VkCommandBuffer cmd, const float shift_px[2],
+                          const host_moving *moving);
+void host_reuse_begin_shade(const host_reuse *reuse, VkCommandBuffer cmd, const float shift_px[2]);
 
 #endif

@@ -133,10 +133,10 @@ struct host_contact_gpu { /* push constants */
 #define HOST_REUSE_SIDE  4 /* pixels along a side of a block */
 #define HOST_REUSE_RECTS 8
 
-/* What a pixel of a sub-frame takes: a pixel of the one that was shaded everywhere, by place in a square of 3 x 3 in
- * rows from the top left, with itself in the middle; or it is shaded. */
-#define HOST_REUSE_PLACES 9
-#define HOST_REUSE_SHADED HOST_REUSE_PLACES
+/* Kinds of blocks. Of the last, each pixel takes one of the sub-frame that was shaded everywhere, or is shaded. */
+#define HOST_REUSE_KEPT   0
+#define HOST_REUSE_SHADED 1
+#define HOST_REUSE_PIXELS 2
 #define HOST_REUSE_MOVES  16777215 /* as an id: of what moves by itself, whose pixels are shaded each time */
 #define HOST_REUSE_TAKEN  1e-6     /* as a depth: no surface is so near */
 

@@ -10,9 +10,6 @@ layout(push_constant) uniform Reuse { host_reuse_gpu reuse; };
 #define REUSE_NOTHING vec4(0.0, 0.0, 0.0, -1.0)
 #define REUSE_PIXELS  vec4(0.0, 0.0, 0.0, -2.0)
 
-bool reuse_keeps(vec4 plane) { return plane.w >= 0.0; }
-bool reuse_takes_pixels(vec4 plane) { return plane.w < -1.5; }
-
 const float REUSE_MOVED_PX = 0.1; // what the eye moves meanwhile, beyond what shift says
 
 // 2 parts of a thousand of the distance: 1 - depth falls as 1 / distance.

@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D depth_picture;
 layout(set = 0, binding = 1, std430) buffer Planes { vec4 planes[]; };
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimage2D kinds;
 layout(set = 0, binding = 10) uniform usampler2D first_id;
 layout(set = 0, binding = 12) uniform usampler2D id_picture;
 
@@ -31,5 +32,8 @@ void main()
             apart = max(apart, abs(plane.x + dot(plane.yz, vec2(inside) + from) - depth));
     }
     const bool keeps = same && apart <= plane.w;
-    planes[block] = reuse_moves(first) || plane.w == REUSE_NOTHING.w ? REUSE_NOTHING : keeps ? plane : REUSE_PIXELS;
+    const bool shades = reuse_moves(first) || plane.w == REUSE_NOTHING.w;
+    planes[block] = shades ? REUSE_NOTHING : keeps ? plane : REUSE_PIXELS;
+    const uint kind = shades ? HOST_REUSE_SHADED : keeps ? HOST_REUSE_KEPT : HOST_REUSE_PIXELS;
+    imageStore(kinds, ivec2(gl_GlobalInvocationID.xy), uvec4(kind));
 }
