@@ -10,3 +10,14 @@ vec3 host_color(vec3 stored, uint given)
         light = srgb_decoded(max(stored, vec3(0.0)));
     return light;
 }
+
+// Four samples, with one loop for all of them.
+void host_colors(inout vec3 a, inout vec3 b, inout vec3 c, inout vec3 d, uint given)
+{
+    for (; given == VIRGA_COLOR_SRGB; given = VIRGA_COLOR_LINEAR) {
+        a = srgb_decoded(max(a, vec3(0.0)));
+        b = srgb_decoded(max(b, vec3(0.0)));
+        c = srgb_decoded(max(c, vec3(0.0)));
+        d = srgb_decoded(max(d, vec3(0.0)));
+    }
+}

@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
+#include "gpu/vectors.glsl"
 #include "shared/splash_gpu.h"
 #include "shared/view_gpu.h"
 layout(scalar, set = 0, binding = 1) uniform View

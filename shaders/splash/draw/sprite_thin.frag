@@ -18,19 +18,15 @@ layout(scalar, set = 0, binding = 1) uniform View
 #include "gpu/view.glsl"
 #include "sprite_pixel.glsl"
 #include "through.glsl"
-#include "torn.glsl"
+#include "small_water.glsl"
 
 void main()
 {
     const float alpha = sprite_cover(), u = min(abs(from_middle()) / max(shape.x, 0.5), 1.0);
-    const float torn = PUFFS ? TORN_PUFF : rim_kind.w < 0.5 || rim_kind.w > 2.5 ? TORN_DROPLET : TORN_PILE;
-    const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
-    const vec3 unlit = torn_light(environment(d, vec2(0.97, 0.90)), torn);
     const vec3 open = mix(center_alpha.rgb, rim_kind.rgb, (1.0 + 2.0 * u * u) / 3.0);
-    const vec3 lit = max(center_alpha.rgb - unlit, 0.0);
     // A cloud's droplets scatter light from everywhere: it shows no picture of what is behind it.
     const bool cloud = !PUFFS && rim_kind.w > 2.5;
-    const vec3 light = cloud ? open : small_water(gl_FragCoord.xy, d, open - lit, lit, torn);
+    const vec3 light = cloud ? open : small_water(open);
     radiance = for_target(vec4(light * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);

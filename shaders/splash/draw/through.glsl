@@ -1,12 +1,16 @@
 // through.glsl - what is seen through water and reflected on it: the scene where the host gives its picture, else the
 // environment.
 #include "gpu/host_color.glsl"
+#include "horizon.glsl"
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
 vec3 scene_at(vec2 pixel)
 {
     return host_color(textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, view.color_given);
 }
+
+// A pixel as the host has stored it.
+vec3 stored_at(vec2 pixel) { return texelFetch(scene_color, ivec2(pixel), 0).rgb; }
 
 // The environment. The surroundings hide it below, at, and somewhat above the horizon: there the picture just behind
 // the pixel stands for them.
@@ -15,8 +19,7 @@ vec3 around_of(vec3 direction)
     const vec3 open = environment(direction, vec2(1.0));
     if (view.color_given == 0u)
         return open;
-    const vec3 behind = scene_at(gl_FragCoord.xy);
-    return mix(min(behind, open), open, smoothstep(-0.2, 0.4, direction.y));
+    return mix(min(host_color(stored_at(gl_FragCoord.xy), view.color_given), open), open, open_share(direction));
 }
 
 // The light from a direction. The scene is taken as far away: it is looked up where the ray from the camera in that
@@ -34,18 +37,6 @@ vec3 seen(vec3 direction)
     const vec2 pixel =
         vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
     return mix(around, scene_at(pixel), inside);
-}
-
-// What small water shows: what is behind it, and what is above that, where the ground ends and what stands on it
-// begins. `open`: its light under an open sky, which is all that is known without a picture; `lit`: that of lamps.
-vec3 small_water(vec2 pixel, vec3 d, vec3 open, vec3 lit, float torn)
-{
-    if (view.color_given == 0u)
-        return open + lit;
-    const vec3 level = vec3(d.x, 0.0, d.z) * inversesqrt(max(dot(d.xz, d.xz), 1e-6));
-    const vec3 above = 0.4 * seen(level + vec3(0.0, 0.1, 0.0)) + 0.35 * seen(level + vec3(0.0, 0.3, 0.0)) +
-                       0.25 * seen(level + vec3(0.0, 0.6, 0.0));
-    return mix(scene_at(pixel), min(above, 2.0 * max(open, 0.0)), 0.4 + 0.4 * torn) + lit;
 }
 
 float fresnel(float cosine)
