@@ -2,6 +2,7 @@
 #include "accumulate.h"
 
 #include "descriptors.h"
+#include "passes.h"
 #include "pipeline.h"
 #include "shaders/frame_gpu.h"
 
@@ -9,10 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accumulate_comp.spv.h"
-#include "accumulate_comp_pair.spv.h"
-
-#define GROUP 8 /* pixels along a side */
+#include "accumulate_frag.spv.h"
+#include "accumulate_frag_pair.spv.h"
 
 /* ---- pictures ----------------------------------------------------------------------------------------------- */
 
@@ -81,21 +80,61 @@ static bool is_added(const host_accumulator *a, const host_target *target, int o
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
 /* The output, the sum, weights. */
-static const VkDescriptorType kinds[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                          VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+static const VkDescriptorType kinds[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                          VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+/* Of passes and pipelines. */
+static int kind_of(host_output output)
+{
+    return host_output_channels(output) == 2;
+}
+
+/* Sub-frames are added one after another, each by its pass. A pixel is read only by the invocation that writes it. */
+static bool create_pass(host_accumulator *a, VkFormat format, VkRenderPass *pass, char *error, size_t error_size)
+{
+    VkAttachmentDescription attachment = host_attachment(format, VK_IMAGE_LAYOUT_GENERAL);
+    const VkPipelineStageFlags drawing =
+        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = &attachment,
+        .color_count = 1,
+        .reads_itself = true,
+        .before = {drawing | VK_PIPELINE_STAGE_TRANSFER_BIT, writes, drawing,
+                   writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_INPUT_ATTACHMENT_READ_BIT},
+        .after = {drawing, writes, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT},
+    };
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachment.initialLayout = VK_IMAGE_LAYOUT_GENERAL;
+    return host_pass_create(a->device, &def, pass, error, error_size);
+}
+
+static bool create_pipelines(host_accumulator *a, char *error, size_t error_size)
+{
+    const VkFormat formats[2] = {host_output_format(HOST_COLOR), host_output_format(HOST_VELOCITY)};
+    const host_code codes[2] = {HOST_CODE(accumulate_frag), HOST_CODE(accumulate_frag_pair)};
+    for (int i = 0; i < 2; i++)
+        if (!create_pass(a, formats[i], &a->passes[i], error, error_size) ||
+            !host_fullscreen_create(a->device, host_fullscreen_vertex(), codes[i], a->layout, a->passes[i], &a->add[i],
+                                    error, error_size))
+            return false;
+    return true;
+}
 
 static bool create_parts(host_accumulator *a, char *error, size_t error_size)
 {
-    const host_set_shape shape = {kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT};
+    const VkShaderStageFlags stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    const host_set_shape shape = {kinds, 3, stage};
     const uint32_t count = HOST_FRAMES * HOST_OUTPUT_COUNT;
-    return host_sampler_create(a->device, HOST_SAMPLE_NEAREST, &a->sampler, error, error_size) &&
+    return host_buffer_create(a->device, sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_DEVICE,
+                              "no weights", &a->no_weights, error, error_size) &&
+           host_sampler_create(a->device, HOST_SAMPLE_NEAREST, &a->sampler, error, error_size) &&
            host_set_layout_create(a->device, &shape, &a->set_layout, error, error_size) &&
            host_set_pool_create(a->device, &shape, count, &a->pool, error, error_size) &&
            host_sets_allocate(a->device, a->pool, a->set_layout, count, a->sets[0], error, error_size) &&
-           host_pipeline_layout_create(a->device, &a->set_layout, 1, VK_SHADER_STAGE_COMPUTE_BIT,
-                                       sizeof(struct host_accumulate_gpu), &a->layout, error, error_size) &&
-           host_compute_create(a->device, HOST_CODE(accumulate_comp), a->layout, &a->add, error, error_size) &&
-           host_compute_create(a->device, HOST_CODE(accumulate_comp_pair), a->layout, &a->add_pair, error, error_size);
+           host_pipeline_layout_create(a->device, &a->set_layout, 1, stage, sizeof(struct host_accumulate_gpu),
+                                       &a->layout, error, error_size) &&
+           create_pipelines(a, error, error_size);
 }
 
 bool host_accumulator_create(host_device *device, uint32_t width, uint32_t height, host_accumulator *a, char *error,
@@ -112,14 +151,19 @@ void host_accumulator_destroy(host_accumulator *a)
 {
     if (!a->device)
         return;
-    vkDestroyPipeline(a->device->device, a->add, NULL);
-    vkDestroyPipeline(a->device->device, a->add_pair, NULL);
+    for (int i = 0; i < 2; i++) {
+        vkDestroyPipeline(a->device->device, a->add[i], NULL);
+        vkDestroyRenderPass(a->device->device, a->passes[i], NULL);
+    }
     vkDestroyPipelineLayout(a->device->device, a->layout, NULL);
     vkDestroyDescriptorPool(a->device->device, a->pool, NULL);
     vkDestroyDescriptorSetLayout(a->device->device, a->set_layout, NULL);
     vkDestroySampler(a->device->device, a->sampler, NULL);
-    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        host_buffer_destroy(a->device, &a->sums[i]);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        vkDestroyFramebuffer(a->device->device, a->framebuffers[i], NULL);
+        host_image_destroy(a->device, &a->sums[i]);
+    }
+    host_buffer_destroy(a->device, &a->no_weights);
     for (int i = 0; i < HOST_FRAMES; i++)
         host_buffer_destroy(a->device, &a->weights[i]);
     free(a->weight_sums);
@@ -172,33 +216,51 @@ float *host_accumulator_weigh(host_accumulator *a, char *error, size_t error_siz
     return a->weights[slot_of(a)].mapped;
 }
 
-/* The sum, and the sets of an output. The device does not use them yet. */
-static bool prepare(host_accumulator *a, const host_target *target, host_output output, char *error, size_t error_size)
+static bool create_sum(host_accumulator *a, host_output output, char *error, size_t error_size)
 {
-    host_buffer *sum = &a->sums[output];
-    const VkDeviceSize size = (VkDeviceSize)a->width * a->height * host_output_channels(output) * sizeof(float);
-    if (!sum->buffer &&
-        !host_buffer_create(a->device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                            HOST_BUFFER_DEVICE, "sum of sub-frames", sum, error, error_size))
+    host_image *sum = &a->sums[output];
+    const host_image_def def = {.format = host_output_format(output),
+                                .extent = {a->width, a->height, 1},
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                .name = "sum of sub-frames"};
+    return host_image_create(a->device, &def, sum, error, error_size) &&
+           host_framebuffer_create(a->device, a->passes[kind_of(output)], &sum->view, 1, a->width, a->height,
+                                   &a->framebuffers[output], error, error_size);
+}
+
+/* The sum, and the sets of an output. The device does not use them yet. */
+static bool prepare(host_accumulator *a, VkCommandBuffer cmd, const host_target *target, host_output output,
+                    char *error, size_t error_size)
+{
+    host_image *sum = &a->sums[output];
+    if (!sum->image && !create_sum(a, output, error, error_size))
         return false;
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    host_image_barrier(cmd, sum, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+                       drawing | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, drawing, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
         const VkDescriptorSet set = a->sets[i][output];
         host_set_write_image(a->device, set, 0, a->sampler, host_target_shown(target, output)->view,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        host_set_write_buffer(a->device, set, 1, kinds[1], sum->buffer);
-        host_set_write_buffer(a->device, set, 2, kinds[2], a->weight_sums ? a->weights[i].buffer : sum->buffer);
+        host_set_write_input(a->device, set, 1, sum->view);
+        host_set_write_buffer(a->device, set, 2, kinds[2],
+                              a->weight_sums ? a->weights[i].buffer : a->no_weights.buffer);
     }
     return true;
 }
 
 static void add(const host_accumulator *a, VkCommandBuffer cmd, host_output output)
 {
-    const struct host_accumulate_gpu push = {a->width, a->height, a->counts[output] == 0, a->weight_sums != NULL};
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, host_output_channels(output) == 2 ? a->add_pair : a->add);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, a->layout, 0, 1, &a->sets[slot_of(a)][output], 0,
+    const struct host_accumulate_gpu push = {a->width, a->counts[output] == 0, a->weight_sums != NULL};
+    const int kind = kind_of(output);
+    host_pass_begin(cmd, a->passes[kind], a->framebuffers[output], a->width, a->height, 1);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, a->add[kind]);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, a->layout, 0, 1, &a->sets[slot_of(a)][output], 0,
                             NULL);
-    vkCmdPushConstants(cmd, a->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-    vkCmdDispatch(cmd, (a->width + GROUP - 1) / GROUP, (a->height + GROUP - 1) / GROUP, 1);
+    vkCmdPushConstants(cmd, a->layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    vkCmdEndRenderPass(cmd);
 }
 
 bool host_accumulator_add(host_accumulator *a, VkCommandBuffer cmd, const host_target *target, bool keep, char *error,
@@ -209,15 +271,13 @@ bool host_accumulator_add(host_accumulator *a, VkCommandBuffer cmd, const host_t
     uint32_t kept = 0;
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
         kept |= is_kept(target, (host_output)i) ? 1u << i : 0;
-        if (is_added(a, target, i) && !a->counts[i] && !prepare(a, target, (host_output)i, error, error_size))
+        if (is_added(a, target, i) && !a->counts[i] && !prepare(a, cmd, target, (host_output)i, error, error_size))
             return false;
     }
     host_label_begin(a->device, cmd, "accumulate");
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
         if (is_added(a, target, i))
             host_target_begin_read(target, cmd, (host_output)i);
-    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
         if (is_added(a, target, i))
             add(a, cmd, (host_output)i);
@@ -238,12 +298,12 @@ bool host_accumulator_add(host_accumulator *a, VkCommandBuffer cmd, const host_t
 
 void host_accumulator_copy_out(const host_accumulator *a, VkCommandBuffer cmd, const host_target *target)
 {
-    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
-        const VkBufferCopy region = {0, 0, a->sums[i].size};
+        const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                          .imageExtent = {a->width, a->height, 1}};
         if (is_summed(target, i))
-            vkCmdCopyBuffer(cmd, a->sums[i].buffer, target->copies[i].buffer, 1, &region);
+            vkCmdCopyImageToBuffer(cmd, a->sums[i].image, VK_IMAGE_LAYOUT_GENERAL, target->copies[i].buffer, 1,
+                                   &region);
     }
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                         VK_ACCESS_HOST_READ_BIT);

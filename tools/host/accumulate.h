@@ -32,17 +32,20 @@ typedef struct host_accumulator {
     host_device *device;
     uint32_t width, height;
     uint32_t samples;
-    uint32_t counts[HOST_OUTPUT_COUNT];  /* of these, those that have added an output */
-    uint32_t skipped;                    /* bits of outputs that the next one does not add */
-    host_buffer sums[HOST_OUTPUT_COUNT]; /* created on first use */
-    host_buffer weights[HOST_FRAMES];    /* of each pixel, see host_accumulator_weigh; created on first use */
-    float *weight_sums;                  /* NULL: all weights are 1 */
+    uint32_t counts[HOST_OUTPUT_COUNT]; /* of these, those that have added an output */
+    uint32_t skipped;                   /* bits of outputs that the next one does not add */
+    host_image sums[HOST_OUTPUT_COUNT]; /* created on first use */
+    VkFramebuffer framebuffers[HOST_OUTPUT_COUNT];
+    host_buffer weights[HOST_FRAMES]; /* of each pixel, see host_accumulator_weigh; created on first use */
+    host_buffer no_weights;
+    float *weight_sums; /* NULL: all weights are 1 */
     VkSampler sampler;
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
     VkDescriptorPool pool;
     VkDescriptorSet sets[HOST_FRAMES][HOST_OUTPUT_COUNT];
-    VkPipeline add, add_pair;
+    VkRenderPass passes[2]; /* of sums with four channels, and with two */
+    VkPipeline add[2];
 } host_accumulator;
 
 /* Sub-frames that share one picture of what hardly differs between them but at edges: 1, 2 or 4 of a number of samples,

@@ -10,7 +10,6 @@
 #include "bloom_first_comp.spv.h"
 #include "bloom_frag.spv.h"
 #include "bloom_up_comp.spv.h"
-#include "reuse_vert_bloom.spv.h"
 
 #define GROUP  8 /* texels along a side */
 #define STAGES (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
@@ -87,7 +86,7 @@ static bool create_sets(host_bloom *b, const host_bloom_def *def, char *error, s
 
 static bool create_pipelines(host_bloom *b, VkRenderPass pass, char *error, size_t error_size)
 {
-    const host_graphics_def over = {.vertex = HOST_CODE(reuse_vert_bloom),
+    const host_graphics_def over = {.vertex = host_fullscreen_vertex(),
                                     .fragment = HOST_CODE(bloom_frag),
                                     .layout = b->layout,
                                     .pass = pass,

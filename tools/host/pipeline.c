@@ -5,6 +5,8 @@
 
 #include <stddef.h>
 
+#include "fullscreen_vert.spv.h"
+
 #define ALL_CHANNELS \
     (VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT)
 
@@ -100,6 +102,11 @@ bool host_graphics_create(host_device *device, const host_graphics_def *def, VkP
         vkDestroyShaderModule(device->device, stages[i].module, NULL);
     HOST_TRY(made);
     return good;
+}
+
+host_code host_fullscreen_vertex(void)
+{
+    return HOST_CODE(fullscreen_vert);
 }
 
 bool host_fullscreen_create(host_device *device, host_code vertex, host_code fragment, VkPipelineLayout layout,

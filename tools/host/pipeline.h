@@ -32,6 +32,9 @@ extern const VkPipelineColorBlendAttachmentState host_blend_replace, host_blend_
 bool host_graphics_create(host_device *device, const host_graphics_def *def, VkPipeline *pipeline, char *error,
                           size_t error_size);
 
+/* A shader that makes one triangle over a whole picture, at the far end, from three vertices. */
+host_code host_fullscreen_vertex(void);
+
 /* Triangles without a vertex buffer, into one color attachment, without depth, blending or culling. */
 bool host_fullscreen_create(host_device *device, host_code vertex, host_code fragment, VkPipelineLayout layout,
                             VkRenderPass pass, VkPipeline *pipeline, char *error, size_t error_size);

@@ -10,7 +10,6 @@
 #include "reuse_find_comp.spv.h"
 #include "reuse_slope_frag.spv.h"
 #include "reuse_take_frag.spv.h"
-#include "reuse_vert.spv.h"
 
 #define GROUP  8 /* blocks along a side */
 #define SLOPES VK_FORMAT_R32G32_SFLOAT
@@ -140,7 +139,7 @@ static bool create_pipelines(host_device *device, host_reuse *u, char *error, si
         taken[i] = host_blend_replace;
     const VkPipelineLayout layout = u->bindings.layout;
     const host_graphics_def take = {
-        .vertex = HOST_CODE(reuse_vert),
+        .vertex = host_fullscreen_vertex(),
         .fragment = HOST_CODE(reuse_take_frag),
         .layout = layout,
         .pass = u->pass,
@@ -152,7 +151,7 @@ static bool create_pipelines(host_device *device, host_reuse *u, char *error, si
     };
     return host_compute_create(device, HOST_CODE(reuse_find_comp), layout, &u->find, error, error_size) &&
            host_compute_create(device, HOST_CODE(reuse_check_comp), layout, &u->check, error, error_size) &&
-           host_fullscreen_create(device, HOST_CODE(reuse_vert), HOST_CODE(reuse_slope_frag), layout, u->slope_pass,
+           host_fullscreen_create(device, host_fullscreen_vertex(), HOST_CODE(reuse_slope_frag), layout, u->slope_pass,
                                   &u->slope, error, error_size) &&
            host_graphics_create(device, &take, &u->take, error, error_size);
 }
@@ -289,7 +288,8 @@ void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
 {
     host_image_barrier(cmd, &u->id, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
-                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
     host_pass_begin(cmd, u->pass, u->depth_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
 }
 
@@ -302,8 +302,8 @@ void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float 
     host_moving_push(moving, &push);
     vkCmdEndRenderPass(cmd);
     host_image_barrier(cmd, &u->id, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, SHOWN,
-                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                       compute | fragment, VK_ACCESS_SHADER_READ_BIT);
+                       VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, compute | fragment, VK_ACCESS_SHADER_READ_BIT);
     host_image_barrier(cmd, &u->kinds, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, compute | fragment, 0,
                        compute, VK_ACCESS_SHADER_WRITE_BIT);
     host_memory_barrier(cmd, compute, VK_ACCESS_SHADER_WRITE_BIT, compute,

@@ -520,8 +520,7 @@ void host_target_begin_read(const host_target *target, VkCommandBuffer cmd, host
     host_image_barrier(cmd, host_target_shown(target, output), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                       VK_ACCESS_SHADER_READ_BIT);
+                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, READERS, VK_ACCESS_SHADER_READ_BIT);
 }
 
 void host_target_end_read(const host_target *target, VkCommandBuffer cmd, host_output output)
@@ -530,7 +529,7 @@ void host_target_end_read(const host_target *target, VkCommandBuffer cmd, host_o
     if (is_sampled(output, &layout) && is_drawn(target, output))
         return;
     host_image_barrier(cmd, host_target_shown(target, output), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
+                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, READERS, 0,
                        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                        VK_ACCESS_TRANSFER_READ_BIT);
 }

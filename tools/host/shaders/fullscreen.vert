@@ -1,5 +1,5 @@
 #version 460
-// reuse.vert - one triangle over the whole picture, at the far end.
+// fullscreen.vert - one triangle over the whole picture, at the far end.
 
 void main()
 {
