@@ -436,6 +436,79 @@ static void a_splash_that_stands_for_several_shows_them_side_by_side(void **stat
     close_shot(&s);
 }
 
+/* ---- the light of small water */
+
+static double smooth(double low, double high, double x)
+{
+    const double t = fmin(fmax((x - low) / (high - low), 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+/* What record_plate draws at a place of the picture. */
+static void scene_at(const double pixel[2], double rgb[3])
+{
+    rgb[0] = pixel[0] < SIDE / 2;
+    rgb[1] = 1 - rgb[0];
+    rgb[2] = pixel[1] < SIDE / 2;
+}
+
+/* Light from above, under a white sky, of a splash at `at` before the level camera at `eye`: three heights over the
+ * horizon, with the shares of small_water.glsl. The picture shows a direction where a point there is; towards its edges
+ * it counts less, and the sky more, which `behind` hides where it is darker. */
+static void light_above(const shot *s, const double eye[3], const double at[3], const double behind[3], double rgb[3])
+{
+    static const double heights[3] = {0.1, 0.3, 0.6}, shares[3] = {0.4, 0.35, 0.25};
+    const double x = at[0] - eye[0], z = at[2] - eye[2], length = hypot(x, z);
+    double pixel[2], shown[3];
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int i = 0; i < 3; i++) {
+        to_pixels(s, (const double[3]){eye[0] + x / length, eye[1] + heights[i], eye[2] + z / length}, pixel);
+        const double aside = fabs(pixel[0] / (SIDE / 2) - 1), up = fabs(pixel[1] / (SIDE / 2) - 1);
+        const double inside = fmin(fmax(8 - 8 * fmax(aside, up), 0), 1), sky = smooth(-0.2, 0.4, heights[i]);
+        scene_at(pixel, shown);
+        for (int c = 0; c < 3; c++)
+            rgb[c] += shares[i] * (inside * shown[c] + (1 - inside) * (sky + (1 - sky) * fmin(behind[c], 1)));
+    }
+}
+
+/* The ground behind the splash is red and what stands on it violet. Torn as a puff is, it shows 0.4 + 0.4 * 0.8 of what
+ * is above. */
+static void small_water_shows_what_is_behind_and_above_it(void **state)
+{
+    (void)state;
+    static const double eye[3] = {0.05, 0.05, 0.5}, above_share = 0.72;
+    shot s;
+    double behind[3], above[3], max_error = 0;
+    int pixels_seen = 0;
+    open_shot(&s);
+    put_crown(&s);
+    s.give_color = true;
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.lighting.environment_sh[0][c] = (float)(2 * sqrt(M_PI));
+    apply_settings(&s);
+    aim(&s, eye, (const double[3]){eye[0], eye[1], 0});
+    const float *pixels = draw_frame(&s);
+    scene_at((const double[2]){0, SIDE - 1}, behind);
+    light_above(&s, eye, nowhere, behind, above);
+    for (size_t i = 0; i < pixel_count(&s); i++) {
+        const double alpha = (double)pixels[i * 4 + 3];
+        if (alpha < 0.01)
+            continue;
+        pixels_seen++;
+        for (int c = 0; c < 3; c++) {
+            const double light = (1 - above_share) * behind[c] + above_share * above[c];
+            max_error = fmax(max_error, fabs((double)pixels[i * 4 + (size_t)c] / alpha - light));
+        }
+    }
+    printf("above: %.3f %.3f %.3f; %d pixels, off by up to %.1e\n", above[0], above[1], above[2], pixels_seen,
+           max_error);
+    assert_true(pixels_seen >= 4);
+    assert_true(max_error < 1e-3);
+    assert_int_equal(prepared(&s)->sprites, 1);
+    close_shot(&s);
+}
+
 /* ---- sheets of feet */
 
 /* How wide and high a picture is covered, in pixels. */
@@ -506,6 +579,7 @@ int main(void)
         cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
         cmocka_unit_test(a_small_crown_covers_the_same_with_its_parts_and_as_a_spot),
         cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
+        cmocka_unit_test(small_water_shows_what_is_behind_and_above_it),
         cmocka_unit_test(the_sheet_of_a_foot_is_as_long_as_its_axes),
         cmocka_unit_test(a_splash_that_stands_for_several_shows_them_side_by_side),
     };
