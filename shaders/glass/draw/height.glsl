@@ -3,21 +3,30 @@
 // between invocations by subgroup shuffles, else through shared memory. LANES is the workgroup's size; each invocation
 // has 64 / LANES texels in a column.
 //
-// Of each ball four sums are taken: its density V and, with a weight k, k V, k V z and k K. Here z is its height with
-// its sag, relative to the view's highest ball, and K = 1 / (1 + x^2)^2. With k = z,
+// Of each ball three sums are taken: its density V, V / z and h^2. Here z is its height with its sag, relative to the
+// view's highest ball, x the distance from its middle over its radius, and h = z (1 - x^2) how high it is, 0 outside of
+// its rim. From them
 //
-//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and height, so that a small ball in or
-//                                     under a large one makes no dent
-//     P = 2 - ((sum k K) / Z)^(-1/2)  is 1 - x^2 for a single ball, smooth where balls merge, and below 2 for any
-//                                     number of them
+//     I = (sum h^2)^(1/2)          is the height of a single ball, smooth where balls meet, and hardly more than that
+//                                  of a large one where a small one lies in or under it
+//     Z = (sum V) / (sum V / z)    is a mean height in which the lowest counts most, as 1 / z does
+//     P = Z p(sum V)               where p is the 1 - x^2 at which a single ball has that density, up to 1/2; then
+//                                  less, and 1 where densities add up to 1.5
 //
-// and Z P is the height. Two drops that become one have P = 1.29 in their middle; for caps with the same contact angle
-// it is 2^(1/3) = 1.26. Near the rim the height follows the density instead: the x^2 at which a single ball has that
-// density. So the water ends where the density is 1/2. For a single ball both agree. With Chen and Zhang's weights, k =
-// t_i is R_i minus the distance, the sums are divided by the sum of the weights, and P is computed from the weighted
-// mean of K.
+// P ends where the water ends, at a density of 1/2, and fills necks, where no ball is high. For a single ball it is
+// nowhere above I, and both agree up to p = 1/2. So the height is P at the rim, and I with what P is above it,
+// smoothly: I + d^3 / (d^2 + I^2 / 10), with d = P - I > 0.
 //
-// A fifth sum is the mist of drops that are too small for a shape: each is spread over the four texels around its
+// So a drop gives to one beside it a height, never a factor: with a mean that the highest rules, a bead beside a large
+// drop was raised by the ratio of both, with walls ten times as steep as a drop's at its rim. Where water of one
+// pressure meets the glass at one angle, it is nowhere steeper than there. Here two caps are at most 1.8 times as steep
+// (Goto et al.'s density, sizes up to 1 : 10, by the formula), outside of the larger one at most 1.6 times.
+//
+// With Chen and Zhang's weights, k = t_i, R_i minus the distance, there are sums of k, k V, k V z and k K, where
+// K = 1 / (1 + x^2)^2, for weighted means. Their height is (sum k V z) / (sum k V) times 2 - (mean of K)^(-1/2), which
+// is 1 - x^2 for a single ball; near the rim it follows the density.
+//
+// One more sum is the mist of drops that are too small for a shape: each is spread over the four texels around its
 // middle, by their distance, so that its whole area is kept.
 //
 // Slopes need neighbours. The next pass (relief.comp) computes them; in the paper's style, which shows only densities
@@ -32,7 +41,10 @@
 #include "mask.glsl"
 
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
-#define MAX_CELLS 14  // max cells along a side that a tile lies on or beside, where beads have a shape
+#define SQUARED 16777216.0 // and in that of squares: the view's highest ball has 0.4 there
+#define MAX_INVERSE 128.0 // of heights; lower balls count as if they were so high
+#define INVERSE (ONE / MAX_INVERSE)
+#define MAX_CELLS 14 // max cells along a side that a tile lies on or beside, where beads have a shape
 
 layout(local_size_x = TILE, local_size_y = LANES / TILE) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
@@ -95,18 +107,23 @@ Ball ball_of(uint entry)
                 PINNED ? vec2(b.stretch[0], b.stretch[1]) : vec2(0.0));
 }
 
-// What a ball adds to a texel's sums: V (Chen and Zhang: k), k V, k V z, k K.
-vec4 contributions(Ball ball, vec2 x, float x2, float density)
+// What a ball adds to a texel's sums: V, V / z, h^2; by Chen and Zhang k, k V, k V z, k K. A ball that appears has a
+// part of its density, `peak`; its height is then 0 near where that is 1/2.
+ivec4 contributions(Ball ball, vec2 x, float x2, float density)
 {
     if (!HEIGHTS && !WEIGHTED)
-        return vec4(density, 0.0, 0.0, 0.0);
-    const float falloff = 1.0 / (1.0 + x2);
+        return ivec4(int(density * ONE + 0.5), 0, 0, 0);
     const float height = ball.height * max(1.0 + dot(ball.sag, x), 0.2);
+    if (!WEIGHTED) {
+        const float high = height * max(2.0 - (1.0 + x2) * inversesqrt(max(ball.peak, 1e-4)), 0.0);
+        const float inverse = density * min(1.0 / height, MAX_INVERSE);
+        return ivec4(vec3(density * ONE, inverse * INVERSE, high * high * SQUARED) + 0.5, 0);
+    }
     // Chen and Zhang, equations 7 and 8. Radii are relative to the largest, as heights are.
-    const float k = WEIGHTED ? ball.height * max(reach - sqrt(x2), 0.0) / reach : height;
+    const float falloff = 1.0 / (1.0 + x2), k = ball.height * max(reach - sqrt(x2), 0.0) / reach;
     const float inner = ball.peak * k * density_window(x2, reach) * falloff * falloff;
-    const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, inner);
-    return HEIGHTS ? each : vec4(each.xy, 0.0, 0.0);
+    const vec4 each = ONE * vec4(k, k * density, k * density * height, inner) + 0.5;
+    return ivec4(HEIGHTS ? each : vec4(each.xy, 0.0, 0.0));
 }
 
 void add_to(inout Texel texel, Ball ball)
@@ -117,8 +134,8 @@ void add_to(inout Texel texel, Ball ball)
     if (PINNED) // the squared distance over that of the ellipse's rim
         x2 = sqrt(1.0 + dot(ball.stretch, ball.stretch)) * x2 + ball.stretch.x * (square.x - square.y) +
              2.0 * ball.stretch.y * x.x * x.y;
-    const vec4 parts = contributions(ball, x, x2, ball.peak * density_at(x2, reach));
-    texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(parts * ONE + 0.5) : ivec4(0);
+    const ivec4 parts = contributions(ball, x, x2, ball.peak * density_at(x2, reach));
+    texel.sums += x2 < reach * reach && ball.peak > 0.0 ? parts : ivec4(0);
     const vec2 near = max(1.0 - abs(off) / texel_m(), 0.0);
     texel.mist += int(ball.mist * near.x * near.y * ONE + 0.5);
 }
@@ -167,20 +184,35 @@ vec2 middle_of(ivec2 texel) { return (vec2(texel) + 0.5) * texel_m(); }
 
 // ---- results of the sums
 
-// x: blended density. y: height of the water over the glass (m), below 0 beside the water; 0 if heights are not needed.
-vec2 blended(ivec4 sum)
+// p: see above. What is taken off leaves Goto et al.'s, which has a vertical tangent at 1, the slope 1 there.
+float neck_profile(float density)
 {
-    const vec4 s = vec4(sum);
-    const bool weighted = WEIGHTED;
-    const float density = weighted ? s.y / max(s.x, 1.0) : s.x / ONE;
+    const float rim = 1.0 - density_inverse(density), over = max(rim - 0.5, 0.0);
+    const float t = clamp(2.0 * (density - 1.0), 0.0, 1.0), off = DENSITY == DENSITY_GOTO ? 1.0 : 0.5;
+    return max(rim - off * (over * over - 0.25 * t * (2.0 - t)), -1.0);
+}
+
+// x: blended density. y: height of the water over the glass (m), below 0 beside the water; 0 if heights are not needed.
+vec2 summed(ivec4 sum)
+{
+    const float density = float(sum.x) / ONE;
     if (!HEIGHTS)
         return vec2(density, 0.0);
-    const float mean = s.z / max(s.y, 1.0);
-    const float inside = max(weighted ? s.w / max(s.x, 1.0) : s.w / ONE / max(mean, 1e-6), 1e-4);
-    const float inner = 2.0 - inversesqrt(inside), rim = 1.0 - density_inverse(density);
-    const float profile = mix(rim, inner, smoothstep(0.55, 0.9, density));
-    const float height = unit_m * mean * clamp(profile, -1.0, 2.0);
-    return sum.y > 0 ? vec2(density, height) : vec2(weighted ? 0.0 : s.x / ONE, 0.0);
+    const float neck = float(sum.x) / float(max(sum.y, 1)) / MAX_INVERSE * neck_profile(density);
+    const float high = sqrt(float(sum.z) / SQUARED), above = max(neck - high, 0.0);
+    const float inner = high + above * above * above / max(above * above + 0.1 * high * high, 1e-12);
+    return vec2(density, unit_m * mix(neck, inner, smoothstep(0.5, 0.7, density)));
+}
+
+vec2 weighted(ivec4 sum)
+{
+    const vec4 s = vec4(sum);
+    const float density = s.y / max(s.x, 1.0);
+    if (!HEIGHTS || sum.y <= 0)
+        return vec2(density, 0.0);
+    const float mean = s.z / s.y, inner = 2.0 - inversesqrt(max(s.w / max(s.x, 1.0), 1e-4));
+    const float profile = mix(1.0 - density_inverse(density), inner, smoothstep(0.55, 0.9, density));
+    return vec2(density, unit_m * mean * clamp(profile, -1.0, 2.0));
 }
 
 #define SHOWN 1u // there may be something to draw
@@ -190,7 +222,7 @@ vec2 blended(ivec4 sum)
 // the sheet of film (m).
 uint write_texel(ivec2 at, Texel texel)
 {
-    const vec2 water = blended(texel.sums);
+    const vec2 water = WEIGHTED ? weighted(texel.sums) : summed(texel.sums);
     const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
     // A lower bound than the threshold, because a pixel between this texel and its neighbour may be above the
     // threshold.
