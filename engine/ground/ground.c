@@ -87,6 +87,7 @@ enum {
     COUNT_TICKS,
     COUNT_VIEWS,
     COUNT_STREAMS,
+    COUNT_FLOORS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -94,6 +95,9 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const virga_ground_def *def = given;
     const uint32_t far_cells = def->far_cells;
     counts[COUNT_CELLS] = (VkDeviceSize)def->cells * def->cells;
+    /* Behind the floors, the list of blocks: its head, and two words for each block, which are as long as a floor. */
+    counts[COUNT_FLOORS] = counts[COUNT_CELLS] + counts[COUNT_CELLS] / VIRGA_GROUND_BLOCK +
+                           sizeof(virga_ground_blocks_gpu) / sizeof(virga_floor_gpu);
     counts[COUNT_SIDE] = def->cells;
     counts[COUNT_TWO_SIDES] = 2 * def->cells;
     counts[COUNT_KEPT] = (VkDeviceSize)def->cached_tiles * VIRGA_GROUND_TILE_CELLS;
@@ -115,8 +119,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 #define KEPT_USE     (MAP_USE | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
 
 static const virga_effect_buffer buffers[] = {
-    {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS, FILL,
-     GROUND_NO_MATERIAL},
+    {"ground.floors", AT(floors), VIRGA_USE_TEXELS | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, DEVICE, 0,
+     sizeof(virga_floor_gpu), COUNT_FLOORS, FILL, GROUND_NO_MATERIAL},
     {"ground.cells", AT(cells), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_CELLS, FILL},
     {"ground.arrivals", AT(arrivals), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_arrivals_gpu), COUNT_CELLS, FILL},
     {"ground.stirs", AT(stirs), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
@@ -176,7 +180,7 @@ static const virga_binding_kind bindings[] = {
     RING(VIRGA_ALL_STAGES, tick_ring, virga_ground_tick_gpu),                           /* 0 */
     {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring), sizeof(ground_lists)}, /* 1 tile lists */
     [BIND_IMPACTS] = {STORAGE, COMPUTE},      /* 2 impacts or returned droplets */
-    BUFFER(floors),                           /* 3 */
+    BUFFER(floors),                           /* 3 and the list of blocks */
     BUFFER(cells),                            /* 4 */
     BUFFER(stirs),                            /* 5 */
     BUFFER(arrivals),                         /* 6 */
@@ -213,6 +217,8 @@ static const virga_effect_layout layouts[] = {
 static const virga_effect_pass passes[] = {
     PASS(tile_load),
     PASS(tile_discard),
+    PASS(block_mark),
+    PASS(block_list),
     PASS(touch),
     PASS(contact),
     PASS(contact_soak),

@@ -211,6 +211,7 @@ enum {
     GROUND_DID_HEIGHTS = VIRGA_DID_OWN << 1,
     GROUND_DID_FAR_HEIGHTS = VIRGA_DID_OWN << 2,
     GROUND_DID_FAR_MAP = VIRGA_DID_OWN << 3,
+    GROUND_DID_BLOCKS = VIRGA_DID_OWN << 4,
 };
 
 typedef struct ground_lists {
@@ -227,6 +228,8 @@ struct virga_ground {
     bool has_base;
     uint64_t move_frame; /* of the newest move of the window */
     bool redraw_heights;
+    bool list_blocks;   /* the list of blocks is not that of the floors */
+    bool listed_blocks; /* this step has listed them */
     uint64_t ticks;     /* ticks run since creation */
     uint64_t wakes_end; /* tick after which no wake is left; wheels and feet move it on */
 
@@ -243,7 +246,7 @@ struct virga_ground {
     double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *tile_load, *tile_discard, *touch, *contact, *contact_soak, *receive, *receive_soak, *take,
+    virga_pipeline *tile_load, *tile_discard, *block_mark, *block_list, *touch, *contact, *contact_soak, *receive, *receive_soak, *take,
         *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_cached, *map, *ring, *stream,
         *stream_list;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */

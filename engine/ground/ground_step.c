@@ -69,6 +69,8 @@ void ground_lost(void *object, uint64_t frame, uint32_t did)
         ground_window_forget(&ground->window);
     else if (did & GROUND_DID_HEIGHTS)
         ground->redraw_heights = true;
+    if (did & GROUND_DID_BLOCKS)
+        ground->list_blocks = true;
     if (did & GROUND_DID_FAR_HEIGHTS)
         ground->far.is_placed = false;
     if (did & GROUND_DID_FAR_MAP)
@@ -76,11 +78,12 @@ void ground_lost(void *object, uint64_t frame, uint32_t did)
     ground->stats.tiles_cached = ground->window.cached_count;
 }
 
-/* The undo of a move is for the state before the load. */
+/* The undo of a move is for the state before the load. A list of blocks that was loaded is not trusted. */
 void ground_state_loaded(void *object)
 {
     virga_ground *ground = object;
     ground->move_frame = 0;
+    ground->list_blocks = true;
     ground->far.can_repeat = false; /* the map was drawn by a tick that the state does not have */
     ground_wakes_live(ground);
     ground->stats.tiles_cached = ground->window.cached_count;
@@ -221,6 +224,13 @@ static void dispatch_cells(virga_ground *ground, VkCommandBuffer cmd, const virg
     virga_dispatch_2d(ground->base.context, cmd, pipeline, groups / TILE_GROUPS, TILE_GROUPS);
 }
 
+/* The same over the blocks that have ground: see shaders/ground/blocks.glsl. */
+static void dispatch_blocks(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    const VkDeviceSize head = (VkDeviceSize)ground->def.cells * ground->def.cells * sizeof(virga_floor_gpu);
+    virga_dispatch_indirect(ground->base.context, cmd, pipeline, ground->floors->buffer, head + groups);
+}
+
 /* ---- the window follows the camera */
 
 static void copy_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_buffer *from, const virga_buffer *to,
@@ -296,6 +306,21 @@ static void draw_height_map(virga_ground *ground, VkCommandBuffer cmd, const vir
     virga_compute_barrier(ground->base.context, cmd);
 }
 
+/* Passes over ground run on blocks that have some. Until the first contents of floors are sure to be there, the list is
+ * made in each step: what they are filled with is no list. */
+static void list_blocks(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->base.context;
+    const uint32_t blocks = ground->def.cells * ground->def.cells / VIRGA_GROUND_BLOCK;
+    virga_dispatch(context, cmd, ground->block_mark, blocks);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, ground->block_list, 1);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_ARGUMENTS);
+    ground->base.journal.doing |= GROUND_DID_BLOCKS;
+    ground->list_blocks = false;
+    ground->listed_blocks = true;
+}
+
 static void write_lists(virga_ground *ground)
 {
     ground_lists lists = {0};
@@ -323,7 +348,9 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     ground_window_move(&ground->window, low, &ground->move);
     const bool moved = ground->move.entering_count > 0;
     const bool far = ground_far_follow(ground, info->camera_m) || (ground->redraw_heights && ground->def.far_cells);
-    if (!moved && !far && !ground->redraw_heights)
+    ground->list_blocks = ground->list_blocks || moved || ground->redraw_heights || ground->far.is_uncertain;
+    ground->listed_blocks = false;
+    if (!far && !ground->list_blocks)
         return;
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.window");
     write_lists(ground);
@@ -346,6 +373,8 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     }
     /* After a move only new tiles were drawn: the next step draws all. */
     ground->redraw_heights = ground->redraw_heights && moved;
+    if (ground->list_blocks)
+        list_blocks(ground, cmd);
     virga_pass_end(ground->base.context, cmd, scope);
 }
 
@@ -393,14 +422,12 @@ static uint64_t flow_passes(const virga_ground *ground, uint64_t ticks)
 static void flow(virga_ground *ground, VkCommandBuffer cmd)
 {
     const uint64_t end = flow_passes(ground, ground->ticks + 1);
-    const uint32_t pairs_of_cells = ground->def.cells * ground->def.cells / 2;
     for (uint64_t pass = flow_passes(ground, ground->ticks); pass < end; pass++) {
         const uint32_t pairs = (uint32_t)(pass % FLOW_PASSES);
         const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.flow");
         ground->base.context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pairs,
                                                   &pairs);
-        virga_dispatch(ground->base.context, cmd, ground->flow,
-                       pairs_of_cells / (VIRGA_GROUND_PAIRS_EACH * VIRGA_GROUND_GROUP));
+        dispatch_blocks(ground, cmd, ground->flow, offsetof(virga_ground_blocks_gpu, flow_groups));
         virga_compute_barrier(ground->base.context, cmd);
         virga_pass_end(ground->base.context, cmd, scope);
     }
@@ -537,10 +564,23 @@ static void write_far_map(virga_ground *ground, VkCommandBuffer cmd)
     ground_far_draw(ground, cmd, due);
 }
 
+/* Blocks without ground are written where the list is new. It is, as long as the device may not have executed the maps'
+ * first transition. */
+static void write_near_map(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->base.context;
+    const uint32_t listed = !ground->listed_blocks;
+    context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof listed, &listed);
+    if (listed)
+        dispatch_blocks(ground, cmd, ground->map, offsetof(virga_ground_blocks_gpu, map_groups));
+    else
+        dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+}
+
 static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.map");
-    dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    write_near_map(ground, cmd);
     write_far_map(ground, cmd);
     virga_wait(ground->base.context, cmd, VIRGA_PASSES,
                VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_VERTICES | VIRGA_FRAGMENTS);

@@ -1,5 +1,5 @@
-// flow.comp - water flows downhill, seeps away and evaporates, over all of the window.
-// One invocation per pair of cells. Reads: floors. Writes: cells, flow averages, counters.
+// flow.comp - water flows downhill, seeps away and evaporates, over all blocks of the window that have ground.
+// One invocation per pair of cells. Reads: floors, the list of blocks. Writes: cells, flow averages, counters.
 //
 // A thin sheet without inertia (diffusive wave). Through the side shared by two cells flows q = h^(5/3) sqrt(S) / n
 // per metre of width (Manning), with h the water above what the roughness of the upper cell holds back, and S the slope
@@ -12,6 +12,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "flow_average.glsl"
+#include "blocks.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z instead of x; bit 1: the lower cell is odd
@@ -153,9 +154,11 @@ void main()
     }
     barrier();
     Lost lost = Lost(0u, 0u, virga_ground_count_gpu(0u, 0u));
-    const uint first = gl_WorkGroupID.x * VIRGA_GROUND_PAIRS_EACH * VIRGA_GROUND_GROUP + lane;
-    for (uint i = 0u; i < VIRGA_GROUND_PAIRS_EACH; i++)
-        run_pair(first + i * VIRGA_GROUND_GROUP, (pairs & 1u) != 0u, lost);
+    // The lower cells of a block's pairs are its own. A pair without ground below has nothing to do.
+    const uint first = gl_WorkGroupID.x * VIRGA_GROUND_PAIRS_EACH;
+    const uint end = min(first + VIRGA_GROUND_PAIRS_EACH, floor_words[block_word(VIRGA_GROUND_BLOCK_COUNT)]);
+    for (uint entry = first; entry < end; entry++)
+        run_pair(floor_words[list_word(entry)] * VIRGA_GROUND_GROUP + lane, (pairs & 1u) != 0u, lost);
     if (lost.sunk > 0u)
         atomicAdd(group_sunk, lost.sunk);
     if (lost.dried > 0u)

@@ -1,14 +1,18 @@
 // map.comp - what the host's materials read: wetness, depth of water, height, and the dark spots of the first drops.
-// One invocation per cell of the window. Reads: cells, floors, flow averages. Writes: the maps, spots, slope variance.
+// One invocation per cell of the blocks that have ground. Where blocks have changed or the maps are new, per cell of the
+// window: so the others show none. Reads: cells, floors, flow averages, the list of blocks. Writes: the maps, spots,
+// slope variance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "workgroups.glsl"
+#include "blocks.glsl"
 #include "rings.glsl"
 #include "flow_average.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
+layout(push_constant) uniform Push { uint listed; }; // 1: only blocks that have ground
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2DArray wet_map;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray spot_map;
@@ -29,9 +33,17 @@ uint calm_variance(uint cell_index, float water_m)
     return uint(float(stirs[cell_index]) * exp(-step_s / cell_calm_time(water_m)));
 }
 
+// Of the workgroup.
+uint first_cell()
+{
+    if (listed == 0u)
+        return group_index() * VIRGA_GROUND_GROUP;
+    return floor_words[list_word(gl_WorkGroupID.x)] * VIRGA_GROUND_BLOCK + gl_WorkGroupID.y * VIRGA_GROUND_GROUP;
+}
+
 void main()
 {
-    const uint cell_index = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
+    const uint cell_index = first_cell() + gl_LocalInvocationIndex;
     const uint side = tick.tiles * VIRGA_GROUND_TILE;
     const ivec2 cell = cell_at_index(cell_index);
     const ivec2 texel = cell & int(side - 1u);

@@ -21,10 +21,12 @@ typedef struct virga_ring_gpu virga_ring_gpu;
 typedef struct virga_rings_gpu virga_rings_gpu;
 typedef struct virga_stream_gpu virga_stream_gpu;
 typedef struct virga_streams_gpu virga_streams_gpu;
+typedef struct virga_ground_blocks_gpu virga_ground_blocks_gpu;
 #endif
 
 #define VIRGA_GROUND_GROUP      256
-#define VIRGA_GROUND_PAIRS_EACH 4 /* pairs of cells per invocation of a flow pass */
+#define VIRGA_GROUND_PAIRS_EACH 4 /* blocks of a workgroup of a flow pass */
+#define VIRGA_GROUND_BLOCK      512 /* cells of a block: eight rows of a tile, so that a workgroup has its pairs */
 /* mean height of each quarter of all bumps, in units of bumps_um */
 #define VIRGA_GROUND_QUARTERS  -1.52, -0.42, 0.42, 1.52
 #define VIRGA_GROUND_FAR_SHIFT 3
@@ -210,6 +212,20 @@ struct virga_streams_gpu {
     uint shown[VIRGA_STREAM_BLOCKS]; /* bits of the octaves that some cell of the block has; by rows of stream_blocks */
     uint list[VIRGA_STREAM_BLOCKS];  /* their numbers, and the octaves that are drawn: number | bits << 16 */
 };
+
+/* Head of the list of blocks of cells that have ground: what is below houses has none. It lies behind the floors; behind
+ * it are a mark for each block, and the numbers of the marked blocks, in order. */
+struct virga_ground_blocks_gpu {
+    uint flow_groups[3]; /* workgroups of a flow pass, as arguments of an indirect dispatch */
+    uint map_groups[3];  /* the same of map.comp: one in x for each block, a block's halves in y */
+    uint count;          /* blocks in the list */
+    uint pad;
+};
+/* Its members, counted in words, and where the marks begin. */
+#define VIRGA_GROUND_FLOW_GROUPS 0
+#define VIRGA_GROUND_MAP_GROUPS  3
+#define VIRGA_GROUND_BLOCK_COUNT 6
+#define VIRGA_GROUND_BLOCK_MARKS 8
 
 /* A 64-bit count of water (nl). */
 struct virga_ground_count_gpu {

@@ -175,7 +175,7 @@ static inline void ground_fixture_submit(ground_fixture *f)
 
 static inline void ground_fixture_read(ground_fixture *f, VkCommandBuffer cmd)
 {
-    const VkDeviceSize cells = f->ground->floors->size, landings = f->ground->landings->size;
+    const VkDeviceSize cells = f->ground->cells->size, landings = f->ground->landings->size;
     char *there = f->download.mapped;
     ground_fixture_copy(cmd, f->ground->cells->buffer, 0, f->download.buffer, 0, cells);
     ground_fixture_copy(cmd, f->ground->floors->buffer, 0, f->download.buffer, cells, cells);

@@ -164,7 +164,7 @@ static void test_an_even_sheet_is_shown_even(void **state)
         ground_fixture_step(&f, 13); /* ends after each of the four passes */
         assert_true(unevenness(NULL) > 0.1);
         const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
-        ground_fixture_copy(cmd, f.ground->swings->buffer, 0, f.download.buffer, f.ground->floors->size,
+        ground_fixture_copy(cmd, f.ground->swings->buffer, 0, f.download.buffer, f.ground->cells->size,
                             f.ground->swings->size);
         ground_fixture_submit(&f);
         host_buffer_invalidate(&f.gpu.device, &f.download);
@@ -340,11 +340,74 @@ static void test_ground_gets_wet_at_any_height(void **state)
     free(low);
 }
 
+/* Blocks of cells that have ground, by the floors that were read back, are listed in order. And the map shows ground
+ * where it is, and none elsewhere: -60000 m, a half of 0xfb53. Returns how many there are. */
+static uint32_t check_blocks(void)
+{
+    enum { CELLS = 128 * 128, BLOCKS = CELLS / VIRGA_GROUND_BLOCK };
+    static virga_floor_gpu floors[CELLS];
+    memcpy(floors, f.floors, sizeof floors);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    const VkBufferImageCopy whole = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                     .imageExtent = {128, 128, 1}};
+    effect_fixture_transfers(cmd);
+    vkCmdCopyImageToBuffer(cmd, f.ground->wet_map->image, VK_IMAGE_LAYOUT_GENERAL, f.download.buffer, 1, &whole);
+    ground_fixture_copy(cmd, f.ground->floors->buffer, sizeof floors, f.download.buffer, 2 * sizeof floors,
+                        f.ground->floors->size - sizeof floors);
+    ground_fixture_submit(&f);
+    host_buffer_invalidate(&f.gpu.device, &f.download);
+    const uint16_t(*map)[4] = (const uint16_t(*)[4])f.download.mapped;
+    const virga_ground_blocks_gpu *head = (const virga_ground_blocks_gpu *)f.landings; /* it lies where they did */
+    const uint32_t *list = (const uint32_t *)(head + 1) + BLOCKS;
+    uint32_t found = 0;
+    for (uint32_t block = 0; block < BLOCKS; block++) {
+        bool any = false;
+        for (uint32_t i = block * VIRGA_GROUND_BLOCK; i < (block + 1) * VIRGA_GROUND_BLOCK; i++) {
+            const uint32_t x = i / 4096 % 2 * 64 + i % 64, z = i / 8192 * 64 + i / 64 % 64;
+            const bool ground = floors[i].material != 0xff;
+            assert_int_equal(map[z * 128 + x][3] != 0xfb53, ground);
+            any = any || ground;
+        }
+        if (any)
+            assert_int_equal(list[found++], block);
+    }
+    assert_int_equal(head->count, found);
+    assert_int_equal(head->map_groups[0], found);
+    assert_int_equal(head->flow_groups[0], (found + VIRGA_GROUND_PAIRS_EACH - 1) / VIRGA_GROUND_PAIRS_EACH);
+    return found;
+}
+
+static void test_passes_run_where_there_is_ground(void **state)
+{
+    (void)state;
+    static const float quads[2][4][3] = {{{-1, 0, -3.1f}, {1, 0, -3.1f}, {1, 0, -2}, {-1, 0, -2}},
+                                         {{5.05f, 0, 1}, {5.1f, 0, 1}, {5.1f, 0, 1.05f}, {5.05f, 0, 1.05f}}};
+    begin(quads, NULL, 2, NULL);
+    f.camera[0] = 1;
+    for (int i = 0; i < 5; i++) { /* the first steps list blocks until the first contents are sure to be there */
+        ground_fixture_step(&f, 1);
+        assert_true(check_blocks() > 0);
+    }
+    f.camera[0] = 8;
+    ground_fixture_step(&f, 1);
+    assert_int_equal(check_blocks(), 1); /* only the cell at 5 m */
+    ground_fixture_step(&f, 1);
+    check_blocks();
+    f.camera[0] = 30;
+    ground_fixture_step(&f, 1);
+    assert_int_equal(check_blocks(), 0);
+    f.camera[0] = 1;
+    ground_fixture_step(&f, 1);
+    assert_true(check_blocks() > 1);
+    ground_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_floors_are_where_the_meshes_are),
         cmocka_unit_test(test_ground_gets_wet_at_any_height),
+        cmocka_unit_test(test_passes_run_where_there_is_ground),
         cmocka_unit_test(test_water_at_rest_ends_level),
         cmocka_unit_test(test_water_runs_down_a_slope_into_the_drain),
         cmocka_unit_test(test_a_sheet_flows_at_mannings_speed),
