@@ -534,8 +534,12 @@ static void place_ripples(virga_ground *ground, const double ripple_center_m[3])
         ground->ripple_low_m[axis] = (floor(ripple_center_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
 }
 
+/* Rings, wakes and running water are in lists, which each step brings up to date: the map can be left out where nobody
+ * sees it. It is drawn as long as the device may not have executed its first draw, else it would be in no layout. */
 static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
 {
+    if (ground->info.is_unseen && !ground->far.is_uncertain)
+        return;
     virga_context *context = ground->base.context;
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.rings");

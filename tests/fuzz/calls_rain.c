@@ -270,7 +270,7 @@ void call_virga_ground_step(calls *c)
         CALLS_KEPT(virga_ground_step_info, water),        CALLS_KEPT(virga_ground_step_info, exchange),
         CALLS_KEPT(virga_ground_step_info, wheels),       CALLS_KEPT(virga_ground_step_info, feet),
         CALLS_KEPT(virga_ground_step_info, wheel_count),  CALLS_KEPT(virga_ground_step_info, foot_count),
-        CALLS_KEPT(virga_ground_step_info, handed)};
+        CALLS_KEPT(virga_ground_step_info, handed),       CALLS_BOOL(virga_ground_step_info, is_unseen)};
     const calls_handle h = calls_pick(c, CALLS_GROUND), rain = calls_pick(c, CALLS_RAIN);
     virga_occluder meshes[2];
     virga_wheel wheels[3];

@@ -41,6 +41,7 @@ typedef struct ground_fixture {
     uint32_t water_count;
     float water_spacing_m;
     float handed_late_s;
+    bool is_unseen;
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
     virga_floor_gpu *floors; /* read back */
@@ -244,7 +245,8 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .water_count = f->water_count,
                                    .water_spacing_m = f->water_spacing_m,
                                    .handed = f->handed,
-                                   .handed_late_s = f->handed_late_s};
+                                   .handed_late_s = f->handed_late_s,
+                                   .is_unseen = f->is_unseen};
     ground_fixture_ask_splash(f, &info);
     REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
     if (f->flying)

@@ -97,6 +97,40 @@ static void test_the_crater_opens(void **state)
     check_waves(2.5e-3, 0.88, 1, 128, 132);
 }
 
+static bool is_flat(void)
+{
+    const uint32_t texels = f.ground->def.ripple_texels;
+    for (uint32_t i = 0; i < texels * texels; i++)
+        if (((const uint32_t *)picture.mapped)[i])
+            return false;
+    return true;
+}
+
+/* A step that nobody sees leaves the map. The next one draws what it would have drawn. */
+static void test_what_nobody_sees_is_drawn_later(void **state)
+{
+    static uint32_t seen[4096 * 4];
+    (void)state;
+    for (int unseen = 0; unseen < 2; unseen++) {
+        begin(3);
+        assert_true((size_t)f.ground->def.ripple_texels * f.ground->def.ripple_texels * 4 >= sizeof seen);
+        ground_fixture_drop(&f, 3, -4, 0, 4000);
+        f.is_unseen = unseen;
+        ground_fixture_step(&f, 1);
+        read_back();
+        assert_int_equal(is_flat(), unseen);
+        f.is_unseen = false;
+        ground_fixture_step(&f, 2);
+        read_back();
+        assert_false(is_flat());
+        const char *middle = (const char *)picture.mapped + picture.size / 2 - sizeof seen / 2;
+        if (!unseen)
+            memcpy(seen, middle, sizeof seen);
+        assert_memory_equal(seen, middle, sizeof seen);
+        end();
+    }
+}
+
 static void test_a_ring_is_of_its_drop_and_its_instant(void **state)
 {
     (void)state;
@@ -238,6 +272,7 @@ int main(void)
         cmocka_unit_test(test_the_map_shows_the_waves_of_the_table),
         cmocka_unit_test(test_the_map_shows_the_crater),
         cmocka_unit_test(test_the_crater_opens),
+        cmocka_unit_test(test_what_nobody_sees_is_drawn_later),
         cmocka_unit_test(test_a_ring_is_of_its_drop_and_its_instant),
         cmocka_unit_test(test_there_are_no_rings_on_a_film_or_beside_the_water),
         cmocka_unit_test(test_a_list_that_tells_of_any_number_of_drops_is_read_as_far_as_it_can_be),

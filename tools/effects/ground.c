@@ -348,7 +348,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.contact_droplets = from->contact_droplets;
     settings.stream_waves = (float)from->stream_waves;
     settings.wake_waves = (float)from->wake_waves;
-    settings.measure = s->options.stats;
+    settings.measure = s->options.stats && !s->is_unseen;
     return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
 }
 

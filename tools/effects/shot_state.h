@@ -94,6 +94,7 @@ typedef struct shot {
     uint64_t step_frame;               /* frame of the device in which the newest step was recorded */
     uint32_t preroll;                  /* remaining frames of the scene's pre-roll */
     bool began;                        /* the first step was done */
+    bool is_unseen;                    /* no picture is drawn of the step that is recorded */
     double camera_time_s;              /* time of the simulation's current frame */
     host_camera_key eye_keys[2];       /* (live) the free camera, which replaces the path: a frame ago, and now */
     bool eye_free;                     /* (live) the free camera is in use */

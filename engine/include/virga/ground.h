@@ -316,6 +316,10 @@ typedef struct virga_ground_step_info {
     /* As virga_splash_step_info has them. */
     double handed_origin_m[3];
     float handed_late_s;
+
+    /* No picture is drawn before the next step, as in a pre-roll. The map of ripples, which only pictures read, may then
+     * stay as it was; all else is done, and later steps give the same. Saves its draw. Default false. */
+    bool is_unseen;
 } virga_ground_step_info;
 
 /* Lets the impacts land, runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read by

@@ -199,6 +199,10 @@ typedef struct virga_scene_frame {
      * picture by then; in a game that of the previous frame is fine. true: panes are stepped, but not prepared. Call
      * virga_scene_prepare_panes once the picture is there. Default false. */
     bool defer_panes;
+
+    /* No picture is drawn before the next frame, as in a pre-roll: see virga_ground_step_info.is_unseen. Default
+     * false. */
+    bool is_unseen;
 } virga_scene_frame;
 
 /* Returns VIRGA_OK if the pipelines of all effects for stepping and preparing are built, see virga_rain_ready. */

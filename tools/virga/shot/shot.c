@@ -280,7 +280,10 @@ static bool save_if_due(shot *s, char *error, size_t error_size)
  * draws these frames. */
 bool shot_step_preroll(shot *s, char *error, size_t error_size)
 {
-    if (!step_to(s, -(double)s->preroll / s->scene->frames.fps, error, error_size))
+    s->is_unseen = true;
+    const bool done = step_to(s, -(double)s->preroll / s->scene->frames.fps, error, error_size);
+    s->is_unseen = false;
+    if (!done)
         return false;
     s->preroll--;
     return save_if_due(s, error, error_size);
@@ -292,7 +295,10 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
         if (!shot_step_preroll(s, error, error_size))
             return false;
     while (s->frame_index < frame || s->frame_index + 1 == s->scene->frames.first) {
-        if (!step_to(s, shot_time(s, s->frame_index + 1), error, error_size))
+        s->is_unseen = s->frame_index + 1 < frame;
+        const bool done = step_to(s, shot_time(s, s->frame_index + 1), error, error_size);
+        s->is_unseen = false;
+        if (!done)
             return false;
         s->frame_index++;
         if (!save_if_due(s, error, error_size))

@@ -123,7 +123,7 @@ static bool record_before(shot *s, VkCommandBuffer cmd, double time_s, double dt
 
 bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size)
 {
-    virga_scene_frame frame = {.dt_s = dt_s};
+    virga_scene_frame frame = {.dt_s = dt_s, .is_unseen = s->is_unseen};
     if (!record_before(s, cmd, time_s, dt_s, error, error_size) || !fill_frame(s, time_s, &frame, error, error_size) ||
         !shot_apply_settings(s, time_s, error, error_size) ||
         !shot_ok(s, virga_scene_record(s->simulation, cmd, &frame), "stepping the simulation", error, error_size))
