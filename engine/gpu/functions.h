@@ -82,6 +82,7 @@
     X(CmdBeginRenderPass)           \
     X(CmdEndRenderPass)             \
     X(CmdCopyBufferToImage)         \
+    X(CmdCopyImage)                 \
     X(CmdCopyImageToBuffer)         \
     X(CmdClearColorImage)           \
     X(CmdCopyBuffer)                \

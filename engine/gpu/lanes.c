@@ -194,6 +194,12 @@ WITH_ARRAY(CmdCopyImageToBuffer,
             const VkBufferImageCopy *regions),
            VALUES(VkImage image; VkImageLayout layout; VkBuffer buffer; uint32_t n;), VALUES(image, layout, buffer, n),
            (cmd, k->image, k->layout, k->buffer, k->n, ARRAY_OF(k)), regions, n * sizeof *regions)
+WITH_ARRAY(CmdCopyImage,
+           (VkCommandBuffer cmd, VkImage source, VkImageLayout source_layout, VkImage to, VkImageLayout to_layout,
+            uint32_t n, const VkImageCopy *regions),
+           VALUES(VkImage source; VkImageLayout source_layout; VkImage to; VkImageLayout to_layout; uint32_t n;),
+           VALUES(source, source_layout, to, to_layout, n),
+           (cmd, k->source, k->source_layout, k->to, k->to_layout, k->n, ARRAY_OF(k)), regions, n * sizeof *regions)
 WITH_ARRAY(CmdClearColorImage,
            (VkCommandBuffer cmd, VkImage image, VkImageLayout layout, const VkClearColorValue *color, uint32_t n,
             const VkImageSubresourceRange *ranges),
@@ -489,6 +495,7 @@ static void replay_all(virga_lanes *lanes, VkCommandBuffer cmd)
     X(CmdCopyBuffer, keep_CmdCopyBuffer)                   \
     X(CmdUpdateBuffer, keep_CmdUpdateBuffer)               \
     X(CmdCopyBufferToImage, keep_CmdCopyBufferToImage)     \
+    X(CmdCopyImage, keep_CmdCopyImage)                     \
     X(CmdCopyImageToBuffer, keep_CmdCopyImageToBuffer)     \
     X(CmdClearColorImage, keep_CmdClearColorImage)         \
     X(CmdBindVertexBuffers, keep_vertices)                 \

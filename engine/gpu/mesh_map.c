@@ -33,15 +33,19 @@ void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map)
     VIRGA_RETIRE(context, *map);
 }
 
-static virga_result create_images(virga_context *context, uint32_t layers, virga_mesh_map *map)
+static virga_result create_images(virga_context *context, virga_mesh_map *map)
 {
+    const VkImageUsageFlags copies = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const VkPipelineStageFlags copy_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
     const virga_offscreen_def def = {.name = map->name,
                                      .extent = {map->size, map->size},
-                                     .layers = layers,
+                                     .layers = map->keeps ? 2 * map->layers : map->layers,
                                      .colors = {VK_FORMAT_R32_UINT},
                                      .depth = VK_FORMAT_D32_SFLOAT,
+                                     .color_usage = map->keeps ? copies : 0,
+                                     .depth_usage = map->keeps ? copies : 0,
                                      .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                     .readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT};
+                                     .readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | (map->keeps ? copy_stage : 0)};
     return virga_offscreen_create(context, &def, &map->images);
 }
 
@@ -84,7 +88,7 @@ virga_result virga_mesh_map_check_strides(const virga_log *log, const char *name
     return VIRGA_OK;
 }
 
-virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
+virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers, bool keeps,
                                    const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
                                    virga_pipeline_group *group, virga_mesh_map **map)
 {
@@ -99,10 +103,12 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
         return virga_out_of_host_memory(context, name);
     made->resource.destroy = mesh_map_destroy;
     made->size = size ? size : 1;
+    made->layers = size ? layers : 1;
+    made->keeps = size && keeps;
     made->name = name;
     for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
         made->strides[i] = strides[i];
-    TRY(create_images(context, size ? layers : 1, made));
+    TRY(create_images(context, made));
     if (size)
         TRY(create_pipelines(context, group, made));
     *map = made;
@@ -204,14 +210,60 @@ static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_m
     context->vk.CmdDrawIndexed(cmd, mesh->index_count, 1, 0, mesh->vertex_base, 0);
 }
 
+/* Where layers are: of both images, as ends of a copy and as what passes read. */
+static void move_layers(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, bool copied)
+{
+    const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkPipelineStageFlags passes = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, copies = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkImageMemoryBarrier barriers[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        const bool depth = i < 2, behind = i % 2;
+        const VkImageLayout during =
+            behind ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        const VkAccessFlags access = behind ? VK_ACCESS_TRANSFER_READ_BIT : VK_ACCESS_TRANSFER_WRITE_BIT;
+        const VkImageLayout before = behind ? read : VK_IMAGE_LAYOUT_UNDEFINED; /* what is copied over may go */
+        barriers[i] =
+            (VkImageMemoryBarrier){.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+                                   .srcAccessMask = copied && !behind ? access : 0,
+                                   .dstAccessMask = copied ? VK_ACCESS_SHADER_READ_BIT : access,
+                                   .oldLayout = copied ? during : before,
+                                   .newLayout = copied ? read : during,
+                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .image = depth ? map->images->depth->image : map->images->colors[0]->image,
+                                   .subresourceRange = {depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
+                                                        0, 1, behind ? map->layers : 0, map->layers}};
+    }
+    context->vk.CmdPipelineBarrier(cmd, copied ? copies : passes | copies, copied ? passes | copies : copies, 0, 0,
+                                   NULL, 0, NULL, 4, barriers);
+}
+
+void virga_mesh_map_restore(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map)
+{
+    move_layers(context, cmd, map, false);
+    for (int depth = 0; depth < 2; depth++) {
+        const VkImageAspectFlags aspect = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+        const VkImage image = depth ? map->images->depth->image : map->images->colors[0]->image;
+        const VkImageCopy copy = {.srcSubresource = {aspect, 0, map->layers, map->layers},
+                                  .dstSubresource = {aspect, 0, 0, map->layers},
+                                  .extent = {map->size, map->size, 1}};
+        context->vk.CmdCopyImage(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
+                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    }
+    move_layers(context, cmd, map, true);
+}
+
 void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, uint32_t layer,
                          const virga_map_view *view, const virga_occluder *meshes, uint32_t count)
 {
     const virga_pipeline *bound = NULL;
-    virga_offscreen_begin(context, cmd, map->images, layer);
+    if (view->moving_only)
+        virga_offscreen_resume(context, cmd, map->images, layer);
+    else
+        virga_offscreen_begin(context, cmd, map->images, layer);
     for (uint32_t i = 0; i < count; i++)
         if (meshes[i].index_count && (!view->ground_only || meshes[i].ground) &&
-            (!view->still_only || !meshes[i].is_dynamic))
+            (!view->still_only || !meshes[i].is_dynamic) && (!view->moving_only || meshes[i].is_dynamic))
             draw_mesh(context, cmd, map, view, &meshes[i], &bound);
     virga_offscreen_end(context, cmd);
 }

@@ -16,7 +16,8 @@
 
 typedef struct virga_mesh_map {
     virga_resource resource; /* first */
-    uint32_t size;
+    uint32_t size, layers;
+    bool keeps; /* layers of their own, behind the others, hold what stands still */
     uint32_t strides[VIRGA_MAP_STRIDES];
     const char *name;
     virga_offscreen *images; /* depth and the surface; in read-only layouts outside of their draws */
@@ -44,11 +45,12 @@ typedef struct virga_map_view {
     double height_m;  /* down to depth 1 */
     bool ground_only; /* draw only meshes that are ground */
     bool still_only;  /* draw only meshes that do not move */
+    bool moving_only; /* draw only those that do, over what is there */
 } virga_map_view;
 
 /* Creates images of size x size texels (0: one texel that is never drawn into), and two pipelines for each vertex
- * stride that is not 0. */
-virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
+ * stride that is not 0. `keeps`: there are as many layers again, see virga_mesh_map_restore. */
+virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers, bool keeps,
                                    const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
                                    virga_pipeline_group *group, virga_mesh_map **map);
 /* Device memory in bytes. */
@@ -66,7 +68,12 @@ void virga_mesh_map_first_layouts(virga_context *context, VkCommandBuffer cmd, c
 virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh_map *map, const virga_occluder *meshes,
                                   uint32_t count);
 
-/* Clears a layer and draws it. Ends with a barrier for compute passes that read the images. */
+/* Copies the layers behind (layer `layers` and the following ones) into those before. Passes that read the images have
+ * ended then, and draws over the copies wait for it. */
+void virga_mesh_map_restore(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map);
+
+/* Clears a layer and draws it; with moving_only it is not cleared. Ends with a barrier for compute passes that read the
+ * images. */
 void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, uint32_t layer,
                          const virga_map_view *view, const virga_occluder *meshes, uint32_t count);
 

@@ -35,7 +35,8 @@ static virga_result create_images(virga_context *context, const virga_offscreen_
                                VK_IMAGE_ASPECT_COLOR_BIT, def->name, &made->colors[i]));
     if (def->depth)
         TRY(virga_image_create(context, def->depth, def->extent, def->layers,
-                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                   def->depth_usage,
                                VK_IMAGE_ASPECT_DEPTH_BIT, def->name, &made->depth));
 error:
     return result;

@@ -6,7 +6,7 @@
 #include "gpu/resources.h"
 
 #define VIRGA_OFFSCREEN_MAX_COLORS 4
-#define VIRGA_OFFSCREEN_MAX_LAYERS 16
+#define VIRGA_OFFSCREEN_MAX_LAYERS 32
 
 typedef struct virga_offscreen_def {
     const char *name;
@@ -15,7 +15,7 @@ typedef struct virga_offscreen_def {
     VkFormat colors[VIRGA_OFFSCREEN_MAX_COLORS]; /* of as many images as are not VK_FORMAT_UNDEFINED */
     VkFormat depth;                              /* VK_FORMAT_UNDEFINED: no depth */
     bool reversed_depth;                         /* greater depth is nearer */
-    VkImageUsageFlags color_usage;               /* besides drawing and sampling */
+    VkImageUsageFlags color_usage, depth_usage;  /* besides drawing and sampling */
     VkImageLayout layout;                        /* after a draw */
     VkPipelineStageFlags readers;                /* the stages that read the images */
 } virga_offscreen_def;

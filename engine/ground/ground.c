@@ -287,9 +287,9 @@ static virga_result create(void *object)
     const virga_ground_def *def = &ground->def;
     virga_pipeline_group *group = &ground->base.passes;
     virga_result result = VIRGA_OK;
-    TRY(virga_mesh_map_create(context, def->cells, 1, def->occluder_strides, "ground.height_map", group,
+    TRY(virga_mesh_map_create(context, def->cells, 1, false, def->occluder_strides, "ground.height_map", group,
                               &ground->height_map));
-    TRY(virga_mesh_map_create(context, def->far_cells, 2, def->occluder_strides, "ground.far_height_map", group,
+    TRY(virga_mesh_map_create(context, def->far_cells, 2, false, def->occluder_strides, "ground.far_height_map", group,
                               &ground->far.height_map));
     TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->shared, group,
                               &ground->ripples));

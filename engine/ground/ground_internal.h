@@ -246,9 +246,9 @@ struct virga_ground {
     double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *tile_load, *tile_discard, *block_mark, *block_list, *touch, *contact, *contact_soak, *receive, *receive_soak, *take,
-        *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_cached, *map, *ring, *stream,
-        *stream_list;
+    virga_pipeline *tile_load, *tile_discard, *block_mark, *block_list;
+    virga_pipeline *touch, *contact, *contact_soak, *receive, *receive_soak, *take, *spawn_mark, *spawn_scan, *land,
+        *share, *soak, *flow, *measure, *measure_cached, *map, *ring, *stream, *stream_list;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, one for each source of water */

@@ -36,6 +36,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, occlusion_size, 0, 8192, 1024),
     DEF(U32, occlusion_cascades, 1, 4, 2),
     DEF(U32, occlusion_slants, 1, 4, 2),
+    DEF(BOOL, occlusion_keeps, false, true, false),
     DEF(U32, occluder_strides[0], 0, UINT32_MAX, 12),
     DEF(U32, occluder_strides[1], 0, UINT32_MAX, 32),
 };
@@ -63,6 +64,7 @@ static const virga_setting_row setting_rows[] = {
     RAIN(FLOAT, streak_group_mm, 0.2, 100, 100, .look = true),
     RAIN(U32, default_material, 0, 255, 0),
     RAIN(U32, occlusion_interval, 1, 16, 1),
+    RAIN(FLOAT, occlusion_tolerance, 0, 16, 1),
     RAIN(BOOL, walls.on, false, true, true),
     RAIN(FLOAT, walls.share, 0, 2, 0.5),
     RAIN(FLOAT, walls.evaporation_mm_h, 0, 100, 0.2),
@@ -204,7 +206,8 @@ static const virga_effect_pool pools[] = {
 static VkDeviceSize extra_bytes(const void *given)
 {
     const virga_rain_def *def = given;
-    return virga_mesh_map_bytes(def->occlusion_size, def->occlusion_cascades * def->occlusion_slants);
+    const uint32_t maps = def->occlusion_cascades * def->occlusion_slants;
+    return virga_mesh_map_bytes(def->occlusion_size, def->occlusion_keeps ? 2 * maps : maps);
 }
 
 static virga_result init(void *object)

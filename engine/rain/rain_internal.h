@@ -117,6 +117,7 @@ typedef struct rain_map {
     double center[2]; /* in world coordinates, sheared about y = 0 */
     double slant[2];
     double half_m, top_m, height_m;
+    double origin_m[3]; /* the camera by which it was placed. Positions are relative to it: it is redrawn alike */
 } rain_map;
 
 /* The pipelines of a target. Those of streaks come in pairs: without and with the scene's depth. */
@@ -199,6 +200,8 @@ struct virga_rain {
     bool maps_drawn;    /* the rain's own images match `maps` */
     bool maps_loaded;   /* a state was loaded: the next call draws all maps, most of them where they were */
     uint32_t next_map;  /* counts calls, for settings.occlusion_interval */
+    uint64_t still;     /* def.occlusion_keeps: hash of the list of meshes that stand still */
+    bool maps_moving;   /* meshes that move are in the maps */
     bool host_maps;
     virga_image host_map_image;
 

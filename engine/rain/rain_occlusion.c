@@ -81,6 +81,7 @@ static void plan_map(virga_rain *rain, uint32_t index, const double camera_m[3],
     }
     map->top_m = top_m;
     map->height_m = MAP_HEIGHT_M;
+    memcpy(map->origin_m, camera_m, sizeof map->origin_m);
 }
 
 static double top_of(const double camera_m[3])
@@ -147,22 +148,126 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
 
 virga_result rain_occlusion_create(virga_rain *rain)
 {
-    return virga_mesh_map_create(rain->base.context, rain->def.occlusion_size,
-                                 rain->def.occlusion_cascades * rain->def.occlusion_slants, rain->def.occluder_strides,
-                                 "rain.map", &rain->base.passes, &rain->map);
+    return virga_mesh_map_create(rain->base.context, rain->def.occlusion_size, planned_count(rain),
+                                 rain->def.occlusion_keeps, rain->def.occluder_strides, "rain.map", &rain->base.passes,
+                                 &rain->map);
 }
 
-static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, const double camera_m[3],
-                     const virga_occluder *occluders, uint32_t count)
+static virga_map_view view_of(const rain_map *map)
 {
-    const rain_map *map = &rain->maps[index];
     virga_map_view view = {.slant = {map->slant[0], map->slant[1]},
                            .half_m = map->half_m,
-                           .top_m = map->top_m - camera_m[1],
+                           .top_m = map->top_m - map->origin_m[1],
                            .height_m = map->height_m};
-    memcpy(view.origin_m, camera_m, sizeof view.origin_m);
-    center_from(map, camera_m, view.center);
+    memcpy(view.origin_m, map->origin_m, sizeof view.origin_m);
+    center_from(map, map->origin_m, view.center);
+    return view;
+}
+
+static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, const virga_occluder *occluders,
+                     uint32_t count)
+{
+    const virga_map_view view = view_of(&rain->maps[index]);
     virga_mesh_map_draw(rain->base.context, cmd, rain->map, index, &view, occluders, count);
+}
+
+/* All maps in one call, or as many as settings.occlusion_interval asks for. */
+static void draw_all(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3], const virga_occluder *occluders,
+                     uint32_t count)
+{
+    const bool all = all_are_due(rain, camera_m);
+    const double top_m = all ? top_of(camera_m) : rain->maps[0].top_m;
+    for (uint32_t i = 0; i < rain->map_count; i++) {
+        const bool due = all || (i + rain->next_map) % rain->settings.occlusion_interval == 0;
+        if (due)
+            plan_map(rain, i, camera_m, top_m);
+        /* After a load the others are drawn where they were when the state was saved. */
+        if (due || rain->maps_loaded)
+            draw_map(rain, cmd, i, occluders, count);
+    }
+}
+
+/* ---- def.occlusion_keeps: what stands still is kept in layers of its own
+ *
+ * A map is valid for the slant that it was drawn with. An edge at the height h above the ground shelters it up to
+ * h slant beside the edge, so with another slant the map is off by h times their difference. */
+#define SHELTER_M 10.0 /* h: houses and trees are about so high */
+
+static bool has_turned(const virga_rain *rain, uint32_t index)
+{
+    const rain_map *map = &rain->maps[index];
+    const double texel_m = 2 * map->half_m / rain->def.occlusion_size;
+    const double *now = rain->slant_smooth[index % rain->def.occlusion_slants];
+    const double off_m = SHELTER_M * hypot(now[0] - map->slant[0], now[1] - map->slant[1]);
+    return off_m > (double)rain->settings.occlusion_tolerance * texel_m;
+}
+
+static uint64_t hash_on(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 29;
+}
+
+/* Of all that decides what a mesh looks like from above, but for what is in its buffers. */
+static uint64_t hash_mesh(uint64_t hash, const virga_occluder *mesh)
+{
+    uint32_t words[14] = {0};
+    memcpy(words, mesh->world_from_mesh, sizeof mesh->world_from_mesh);
+    memcpy(words + 12, &mesh->cover, sizeof mesh->cover);
+    words[13] = mesh->material;
+    for (int i = 0; i < 14; i += 2)
+        hash = hash_on(hash, (uint64_t)words[i] << 32 | words[i + 1]);
+    hash = hash_on(hash, (uint64_t)(uintptr_t)mesh->vertices ^ mesh->vertex_offset << 40);
+    hash = hash_on(hash, (uint64_t)(uintptr_t)mesh->indices ^ mesh->index_offset << 40);
+    hash = hash_on(hash, (uint64_t)mesh->vertex_stride << 32 | (uint32_t)mesh->index_type);
+    return hash_on(hash, (uint64_t)mesh->index_count << 32 | (uint32_t)mesh->vertex_base);
+}
+
+/* Brings the kept maps up to date. Returns whether some were drawn. What changes where a map lies is part of the state;
+ * what changes what is in it is not, so that a run that goes on from a saved state draws the same. */
+static bool draw_kept(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3], const virga_occluder *occluders,
+                      uint32_t count)
+{
+    const bool none = !(rain->maps_drawn || rain->maps_loaded);
+    bool all = none, changed = none || rain->maps_loaded, drawn = false;
+    uint64_t still = 1;
+    for (uint32_t i = 0; i < count; i++)
+        still = occluders[i].is_dynamic ? still : hash_mesh(still, &occluders[i]);
+    changed = changed || still != rain->still;
+    rain->still = still;
+    for (uint32_t i = 0; i < rain->map_count && !all; i++)
+        all = is_left(&rain->maps[i], camera_m);
+    const double top_m = all ? top_of(camera_m) : rain->maps[0].top_m;
+    for (uint32_t i = 0; i < rain->map_count; i++) {
+        const bool turn = (i + rain->next_map) % rain->settings.occlusion_interval == 0;
+        const bool due = all || (turn && has_turned(rain, i));
+        if (due)
+            plan_map(rain, i, camera_m, top_m);
+        if (!due && !changed)
+            continue;
+        virga_map_view view = view_of(&rain->maps[i]);
+        view.still_only = true;
+        virga_mesh_map_draw(rain->base.context, cmd, rain->map, rain->map_count + i, &view, occluders, count);
+        drawn = true;
+    }
+    return drawn;
+}
+
+static void draw_moving(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
+                        const virga_occluder *occluders, uint32_t count)
+{
+    bool moving = false;
+    const bool drawn = draw_kept(rain, cmd, camera_m, occluders, count);
+    for (uint32_t i = 0; i < count && !moving; i++)
+        moving = occluders[i].is_dynamic && occluders[i].index_count;
+    if (drawn || moving || rain->maps_moving)
+        virga_mesh_map_restore(rain->base.context, cmd, rain->map);
+    rain->maps_moving = moving;
+    for (uint32_t i = 0; i < rain->map_count && moving; i++) {
+        virga_map_view view = view_of(&rain->maps[i]);
+        view.moving_only = true;
+        virga_mesh_map_draw(rain->base.context, cmd, rain->map, i, &view, occluders, count);
+    }
 }
 
 static virga_result check_call(const virga_rain *rain, const double camera_m[3])
@@ -201,22 +306,16 @@ virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, co
     rain_begin_frame(rain, cmd);
     if (!rain->ticks)
         rain_occlusion_tick(rain);
-    const bool all = all_are_due(rain, camera_m), loaded = rain->maps_loaded;
-    const double top_m = all ? top_of(camera_m) : rain->maps[0].top_m;
     rain->map_count = planned_count(rain);
+    rain->next_map++;
+    const virga_pass_scope scope = virga_pass_begin(rain->base.context, cmd, "rain.occlusion");
+    if (rain->def.occlusion_keeps)
+        draw_moving(rain, cmd, camera_m, occluders, count);
+    else
+        draw_all(rain, cmd, camera_m, occluders, count);
     rain->host_maps = false;
     rain->maps_drawn = true;
     rain->maps_loaded = false;
-    rain->next_map++;
-    const virga_pass_scope scope = virga_pass_begin(rain->base.context, cmd, "rain.occlusion");
-    for (uint32_t i = 0; i < rain->map_count; i++) {
-        const bool due = all || (i + rain->next_map) % rain->settings.occlusion_interval == 0;
-        if (due)
-            plan_map(rain, i, camera_m, top_m);
-        /* After a load the others are drawn where they were when the state was saved. */
-        if (due || loaded)
-            draw_map(rain, cmd, i, camera_m, occluders, count);
-    }
     virga_pass_end(rain->base.context, cmd, scope);
     virga_effect_note(&rain->base, cmd, RAIN_DID_MAPS);
     const virga_result recorded = virga_recording_result(rain->base.context);

@@ -239,9 +239,10 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
 {
     virga_splash *splash = scene_find(scene, &splash_type, 0);
     scene_contacts contacts;
-    virga_ground_step_info info = {
-        .meshes = frame->occluders, .mesh_count = frame->occluder_count, .materials = frame->materials,
-        .is_unseen = frame->is_unseen};
+    virga_ground_step_info info = {.meshes = frame->occluders,
+                                   .mesh_count = frame->occluder_count,
+                                   .materials = frame->materials,
+                                   .is_unseen = frame->is_unseen};
     memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
     memcpy(info.ripple_center_m, frame->ripple_center_m, sizeof info.ripple_center_m);
     fill_rainfall(rain_of(scene), &info);

@@ -147,8 +147,8 @@ void call_virga_scene_record(calls *c)
     VkCommandBuffer cmd;
     const bool wrong = calls_slip(c, 20);
     uint32_t flags = calls_of(h.object, SCENE_RECORDS | (wrong ? CALLS_WRONG : 0));
-    virga_scene_frame frame = {.dt_s = calls_number(c, 0, 0.05), .defer_panes = calls_once_in(c, 3),
-                               .is_unseen = calls_once_in(c, 3)};
+    virga_scene_frame frame = {
+        .dt_s = calls_number(c, 0, 0.05), .defer_panes = calls_once_in(c, 3), .is_unseen = calls_once_in(c, 3)};
     fill_panes(c, panes);
     calls_fill_view(c, &view);
     frame.view = calls_once_in(c, 3) ? NULL : &view;

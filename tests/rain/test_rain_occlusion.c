@@ -1,8 +1,12 @@
 /* test_rain_occlusion.c - no rain under a roof, in slanted rain too, and roofs above each other. */
 #include "rain_fixture.h"
 
+#include "rain/rain_internal.h"
+
 #include <math.h>
 #include <string.h>
+
+static bool keeps; /* def.occlusion_keeps */
 
 /* A floor, a roof at 3 m over x, z in [-2; 2], and a table at 1 m under it and beyond it, x in [0; 4]. The vertices are
  * in units of scale[axis] metres, and may be mirrored. */
@@ -16,6 +20,7 @@ static void open_scaled_roof(rain_fixture *f, float wind_x, const float scale[3]
     def.max_drops = 32768;
     def.range_m = 8;
     def.occlusion_slants = 4;
+    def.occlusion_keeps = keeps;
     rain_fixture_open(f);
     for (int i = 0; i < 3 * 4 * 3; i++)
         own[i / 12][i / 3 % 4][i % 3] = quads[i / 12][i / 3 % 4][i % 3] / scale[i % 3];
@@ -248,6 +253,73 @@ static void meshes_may_be_scaled_and_mirrored(void **state)
     }
 }
 
+/* The roof drives away, comes back, is gone, and stands still; the table is put elsewhere. Each drop lands as on maps
+ * that are drawn whole in each call: the same bits. */
+static void what_stands_still_may_be_kept(void **state)
+{
+    enum { STEPS = 9, MOST = 2048 };
+    static virga_impact_gpu expected[STEPS][MOST];
+    static const float roof_m[STEPS] = {0, 3, 6, 6, 1, 0, 0, 0, 0};
+    uint32_t counts[STEPS];
+    (void)state;
+    for (int run = 0; run < 2; run++) {
+        rain_fixture f;
+        keeps = run;
+        open_roof(&f, 2);
+        keeps = false;
+        for (int step = 0; step < STEPS; step++) {
+            const virga_impact_gpu *list;
+            f.occluders[1].is_dynamic = step < 7;
+            f.occluders[1].world_from_mesh[3] = roof_m[step];
+            f.occluders[2].world_from_mesh[11] = step < 6 ? 0 : 2;
+            f.occluders[1].index_count = step == 5 ? 0 : 6;
+            f.occluder_count = step == 8 ? 1 : 3;
+            rain_fixture_step(&f, 1.0 / 12);
+            const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
+            assert_true(head->count > 50 && head->count <= MOST);
+            if (run) {
+                assert_int_equal(head->count, counts[step]);
+                assert_memory_equal(list, expected[step], head->count * sizeof *list);
+            }
+            counts[step] = head->count;
+            memcpy(expected[step], list, head->count * sizeof *list);
+        }
+        rain_fixture_close(&f);
+    }
+}
+
+/* In gusts, kept maps stay within the tolerance, and are not drawn anew in each call. */
+static void kept_maps_follow_the_wind(void **state)
+{
+    rain_fixture f;
+    uint32_t placed = 0, calls = 40;
+    double before[VIRGA_RAIN_MAX_MAPS] = {0};
+    (void)state;
+    keeps = true;
+    open_roof(&f, 2);
+    keeps = false;
+    f.settings.gust_m_s = 1;
+    f.settings.gust_time_s = 3;
+    f.settings.occlusion_tolerance = 2;
+    assert_int_equal(virga_rain_set(f.rain, &f.settings), VIRGA_OK);
+    for (uint32_t call = 0; call < calls; call++) {
+        double now[VIRGA_RAIN_MAX_SLANTS][2];
+        memcpy(now, f.rain->slant_smooth, sizeof now); /* that the next call draws by */
+        rain_fixture_step(&f, 1.0 / 30);
+        for (uint32_t i = 0; i < f.rain->map_count; i++) {
+            const rain_map *map = &f.rain->maps[i];
+            const double texel_m = 2 * map->half_m / 1024, *wanted = now[i % 4];
+            const double off_m = 10 * hypot(wanted[0] - map->slant[0], wanted[1] - map->slant[1]);
+            assert_true(call == 0 || off_m <= 2 * texel_m);
+            placed += map->slant[0] != before[i];
+            before[i] = map->slant[0];
+        }
+    }
+    printf("%u of %u maps drawn\n", placed, calls * f.rain->map_count);
+    assert_true(placed > f.rain->map_count && placed < calls * f.rain->map_count / 2);
+    rain_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +327,8 @@ int main(void)
         cmocka_unit_test(slanted_rain_does_not_come_through_the_roof),
         cmocka_unit_test(no_drop_is_shown_under_the_roof),
         cmocka_unit_test(meshes_may_be_scaled_and_mirrored),
+        cmocka_unit_test(what_stands_still_may_be_kept),
+        cmocka_unit_test(kept_maps_follow_the_wind),
         cmocka_unit_test(maps_are_there_once_they_are_drawn),
         cmocka_unit_test(with_one_map_per_call_all_are_drawn_in_eight_calls),
         cmocka_unit_test(a_camera_that_jumps_has_all_maps_at_once),

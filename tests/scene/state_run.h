@@ -40,6 +40,7 @@ static inline void open_scene(state_run *run, uint32_t seed)
     virga_scene_def def = small_scene_def(panes);
     def.rain.seed = seed;
     def.rain.occlusion_slants = 2;
+    def.rain.occlusion_keeps = run->in_turns;
     run->context = gpu_context(run->f);
     gpu_picture_open(run->f, run->context, &run->picture);
     REQUIRE(virga_scene_create(run->context, &def, &run->scene) == VIRGA_OK);

@@ -167,6 +167,7 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
     def->rain.occlusion_size = from->occlusion_size;
     def->rain.occlusion_cascades = from->occlusion_cascades;
     def->rain.occlusion_slants = from->occlusion_slants;
+    def->rain.occlusion_keeps = true; /* what moves says so */
     def->rain.max_ticks_per_step = 64;
     def->rain.points = s->options.points;
     /* Ticks divide a frame, so that each frame lies on one. */

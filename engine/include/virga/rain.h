@@ -67,6 +67,13 @@ typedef struct virga_rain_def {
      * 8 bytes x size^2 x cascades x slants. Default 2. */
     uint32_t occlusion_slants;
 
+    /* What stands still is kept. Maps of it are drawn again only when the camera has gone a tenth of their side, when
+     * the wind has turned them by settings.occlusion_tolerance, or when the list of such meshes has changed: another
+     * mesh, place or material. A call otherwise copies them, and draws what moves over the copies. So meshes whose
+     * vertices change in their buffers must be marked as is_dynamic, as those that move. Costs as much memory again as
+     * all maps. Default false: all meshes are drawn in each call. */
+    bool occlusion_keeps;
+
     /* Vertex strides (bytes) of the occluders. Vulkan 1.2 fixes the stride in the pipeline, so there is one pipeline
      * per stride. 0: unused. Default 12, 32, 0, 0. */
     uint32_t occluder_strides[4];
@@ -180,8 +187,14 @@ typedef struct virga_rain_settings {
 
     /* [1; 16] calls of virga_rain_draw_occlusion in which all occlusion maps are redrawn once; each call draws an equal
      * part of them. Divides the cost, and delays the effect of moving things and of wind by as many calls. All maps are
-     * drawn at once where one would no longer reach around the camera. Default 1: all maps in each call. */
+     * drawn at once where one would no longer reach around the camera. With def.occlusion_keeps only what stands still
+     * waits. Default 1: all maps in each call. */
     uint32_t occlusion_interval;
+
+    /* [0; 16] with def.occlusion_keeps: texels by which the edge of the dry ground below a roof of 10 m may be off,
+     * because the wind has changed since its map was drawn. The slants of drops that share a map differ by much more.
+     * 0: maps are drawn again whenever the wind changes. Default 1. */
+    float occlusion_tolerance;
 
     /* Upright surfaces that driving rain wets, see virga/walls.h. */
     virga_walls_settings walls;
