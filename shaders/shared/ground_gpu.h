@@ -213,8 +213,8 @@ struct virga_streams_gpu {
     uint list[VIRGA_STREAM_BLOCKS];  /* their numbers, and the octaves that are drawn: number | bits << 16 */
 };
 
-/* Head of the list of blocks of cells that have ground: what is below houses has none. It lies behind the floors; behind
- * it are a mark for each block, and the numbers of the marked blocks, in order. */
+/* Head of the list of blocks of cells that have ground: what is below houses has none. It lies behind the floors;
+ * behind it are a mark for each block, and the numbers of the marked blocks, in order. */
 struct virga_ground_blocks_gpu {
     uint flow_groups[3]; /* workgroups of a flow pass, as arguments of an indirect dispatch */
     uint map_groups[3];  /* the same of map.comp: one in x for each block, a block's halves in y */

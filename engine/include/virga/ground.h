@@ -317,8 +317,8 @@ typedef struct virga_ground_step_info {
     double handed_origin_m[3];
     float handed_late_s;
 
-    /* No picture is drawn before the next step, as in a pre-roll. The map of ripples, which only pictures read, may then
-     * stay as it was; all else is done, and later steps give the same. Saves its draw. Default false. */
+    /* No picture is drawn before the next step, as in a pre-roll. The map of ripples, which only pictures read, may
+     * then stay as it was; all else is done, and later steps give the same. Saves its draw. Default false. */
     bool is_unseen;
 } virga_ground_step_info;
 
