@@ -1,7 +1,7 @@
 // map.comp - what the host's materials read: wetness, depth of water, height, and the dark spots of the first drops.
 // One invocation per cell of the blocks that have ground. Where blocks have changed or the maps are new, per cell of
-// the window: so the others show none. Reads: cells, floors, flow averages, the list of blocks. Writes: the maps, spots,
-// slope variance.
+// the window: so the others show none. Reads: cells, floors, flow averages, the list of blocks. Writes: the maps,
+// spots, slope variance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
