@@ -80,11 +80,26 @@ static VKAPI_ATTR void VKAPI_CALL see_line_width(VkCommandBuffer cmd, float widt
 /* Those that change nothing which a later command of the host would use. */
 static bool is_harmless(const char *name)
 {
-    static const char *const names[] = {
-        "Dispatch",        "DispatchIndirect",        "Draw",           "DrawIndexed",          "DrawIndirect",
-        "BeginRenderPass", "DrawIndexedIndirect",     "EndRenderPass",  "CopyBuffer",           "CopyBufferToImage",
-        "ClearColorImage", "CopyImageToBuffer",       "FillBuffer",     "UpdateBuffer",         "PipelineBarrier",
-        "ResetQueryPool",  "BeginDebugUtilsLabelEXT", "WriteTimestamp", "EndDebugUtilsLabelEXT"};
+    static const char *const names[] = {"Dispatch",
+                                        "DispatchIndirect",
+                                        "Draw",
+                                        "DrawIndexed",
+                                        "DrawIndirect",
+                                        "BeginRenderPass",
+                                        "DrawIndexedIndirect",
+                                        "EndRenderPass",
+                                        "CopyBuffer",
+                                        "CopyBufferToImage",
+                                        "CopyImage",
+                                        "CopyImageToBuffer",
+                                        "FillBuffer",
+                                        "UpdateBuffer",
+                                        "PipelineBarrier",
+                                        "ResetQueryPool",
+                                        "BeginDebugUtilsLabelEXT",
+                                        "WriteTimestamp",
+                                        "EndDebugUtilsLabelEXT",
+                                        "ClearColorImage"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (!strcmp(name, names[i]))
             return true;

@@ -200,6 +200,17 @@ static VKAPI_ATTR void VKAPI_CALL copy_from_image(VkCommandBuffer cmd, VkImage f
     copy_to_image(cmd, to, from, layout, count, parts);
 }
 
+static VKAPI_ATTR void VKAPI_CALL copy_image(VkCommandBuffer cmd, VkImage from, VkImageLayout from_layout, VkImage to,
+                                             VkImageLayout to_layout, uint32_t count, const VkImageCopy *parts)
+{
+    (void)from_layout;
+    (void)to_layout;
+    (void)count;
+    (void)parts;
+    use(cmd, (uint64_t)from, STAND_IN_Image, "vkCmdCopyImage");
+    use(cmd, (uint64_t)to, STAND_IN_Image, "vkCmdCopyImage");
+}
+
 static VKAPI_ATTR void VKAPI_CALL clear_image(VkCommandBuffer cmd, VkImage image, VkImageLayout layout,
                                               const VkClearColorValue *color, uint32_t count,
                                               const VkImageSubresourceRange *parts)
@@ -427,6 +438,7 @@ const stand_in_entry stand_in_commands[] = {
     COMMAND(EndRenderPass, end_pass),
     COMMAND(CopyBufferToImage, copy_to_image),
     COMMAND(CopyImageToBuffer, copy_from_image),
+    COMMAND(CopyImage, copy_image),
     COMMAND(ClearColorImage, clear_image),
     COMMAND(CopyBuffer, copy_buffer),
     COMMAND(FillBuffer, fill_buffer),
