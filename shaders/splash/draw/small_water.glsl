@@ -11,7 +11,7 @@
 
 layout(location = 6) SMALL_WATER vec4 above_first;  // x, y: a pixel of the picture; z, w: another one
 layout(location = 7) SMALL_WATER vec4 above_second; // x, y: a third one; z, w: shares of the first and the second
-layout(location = 8) SMALL_WATER vec4 above_clear;  // rgb: of the environment, what nothing hides; w: share of the third
+layout(location = 8) SMALL_WATER vec4 above_clear;  // rgb: of the environment, what none hides; w: share of the third
 layout(location = 9) SMALL_WATER vec4 above_hidden; // rgb: what the scene hides where it is darker; w: its share
 layout(location = 10) SMALL_WATER vec4 lit_torn;    // rgb: the light of lamps; w: how torn the water is
 
