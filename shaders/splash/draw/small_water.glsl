@@ -20,16 +20,6 @@ layout(location = 10) SMALL_WATER vec4 lit_torn;    // rgb: the light of lamps; 
 // Three heights of a direction over the horizon, and their shares of what is above.
 const vec3 ABOVE_M = vec3(0.1, 0.3, 0.6), ABOVE_SHARES = vec3(0.4, 0.35, 0.25);
 
-// x, y: where the picture shows a direction (px); z: how much it counts, less towards its edges.
-vec3 place_of(vec3 direction)
-{
-    const vec4 clip = to_mat(view.clip_from_rel) * vec4(direction, 0.0);
-    const vec2 ndc = clip.xy / max(clip.w, 1e-4);
-    const float inside = clip.w > 1e-4 ? clamp(8.0 - 8.0 * max(abs(ndc.x), abs(ndc.y)), 0.0, 1.0) : 0.0;
-    const vec2 shown = clamp(ndc, vec2(-1.0), vec2(1.0)) * 0.5 + 0.5;
-    return vec3(vec2(view.viewport[0], view.viewport[1]) + shown * vec2(view.viewport[2], view.viewport[3]), inside);
-}
-
 // `middle`: the sprite's, on the picture. `center`: its light under an open sky and of lamps.
 void set_small_water(vec2 middle_ndc, vec3 center, float torn)
 {

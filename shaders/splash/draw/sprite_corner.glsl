@@ -7,7 +7,7 @@
 #include "gpu/line.glsl"
 #include "gpu/texels.glsl"
 #include "gpu/light.glsl"
-#include "horizon.glsl"
+#include "directions.glsl"
 #include "sprite_form.glsl"
 #include "torn.glsl"
 #define SMALL_WATER_OUT
@@ -70,10 +70,9 @@ void set_corner(uint vertex)
     }
     if (LINES)
         axis_chance = vec4(line_equation(tail, side), 0.0);
-    const float torn = kind == VIRGA_SPRITE_PUFF ? TORN_PUFF : kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
     above_first = above_second = above_clear = above_hidden = lit_torn = vec4(0.0);
     if (view.color_given != 0u)
-        set_small_water(0.5 * (head + tail), center_alpha.rgb, torn);
+        set_small_water(0.5 * (head + tail), center_alpha.rgb, torn_of(kind));
     // w is 1 at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

@@ -61,9 +61,9 @@ void main()
     const float head_px = puff ? p.body_px : max(pixels(sprite.widths.x, p.head.w), view.min_width_px);
     const uint widths = halves(head_px + p.spread_px, puff ? p.sine : tail_px);
     const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
-    const float torn = puff ? TORN_PUFF : sprite.kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
     const vec3 middle = 0.5 * (sprite.head + sprite.tail);
-    const uvec3 light = sprite.kind == VIRGA_SPRITE_CLOUD ? light_of_cloud(middle) : light_of(middle, torn);
+    const uvec3 light =
+        sprite.kind == VIRGA_SPRITE_CLOUD ? light_of_cloud(middle) : light_of(middle, torn_of(sprite.kind));
     sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
     sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
     sprites[4u * index + 2u] = uvec4(widths, halves(p.coverage, p.body_px), light.xy);

@@ -1,7 +1,7 @@
 // through.glsl - what is seen through water and reflected on it: the scene where the host gives its picture, else the
 // environment.
 #include "gpu/host_color.glsl"
-#include "horizon.glsl"
+#include "directions.glsl"
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
 vec3 scene_at(vec2 pixel)
@@ -29,14 +29,10 @@ vec3 seen(vec3 direction)
     const vec3 around = around_of(direction);
     if (view.color_given == 0u)
         return around;
-    const vec4 clip = to_mat(view.clip_from_rel) * vec4(direction, 0.0);
-    const vec2 ndc = clip.xy / max(clip.w, 1e-4);
-    const float inside = clip.w > 1e-4 ? clamp(8.0 - 8.0 * max(abs(ndc.x), abs(ndc.y)), 0.0, 1.0) : 0.0;
-    if (inside <= 0.0)
+    const vec3 place = place_of(direction);
+    if (place.z <= 0.0)
         return around; // independent of the picture
-    const vec2 pixel =
-        vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
-    return mix(around, scene_at(pixel), inside);
+    return mix(around, scene_at(place.xy), place.z);
 }
 
 float fresnel(float cosine)

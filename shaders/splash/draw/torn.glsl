@@ -4,6 +4,12 @@
 #define TORN_PILE 0.5
 #define TORN_DROPLET 0.25
 
+// How torn the water of a kind of sprite is.
+float torn_of(uint kind)
+{
+    return kind == VIRGA_SPRITE_PUFF ? TORN_PUFF : kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
+}
+
 vec3 torn_light(vec3 whole, float torn)
 {
     return mix(whole, environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25)), torn);
