@@ -27,31 +27,42 @@ VkDeviceSize ground_ripples_bytes(uint32_t texels)
     return map + 2 * waves; /* and their upload buffer */
 }
 
-/* An entry of the wave table as its image stores it: slope divided by radius, faded to zero near the end of the table.
- * A pixel multiplies it by its offset from the centre. Radii are in centimetres, because in metres the slopes of the
- * crater may exceed half floats. In the centre both slope and radius are 0, so the entry of the next radius is used;
- * the difference is negligible. */
-static uint16_t wave_entry(const float *slopes, size_t i)
+/* A row of the wave table as its image stores it, all radii at one time: slope divided by radius, faded to zero near the
+ * end of the table. A pixel multiplies it by its offset from the centre. Radii are in centimetres, because in metres the
+ * slopes of the crater may exceed half floats. In the centre both slope and radius are 0, so the entry of the next
+ * radius is used; the difference is negligible. */
+static void fill_entries(const float *slopes, double reach, uint16_t *entries)
 {
-    const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
-    const size_t middle = radius > 0 ? 0 : 1;
-    const int layer = (int)(i / ((size_t)VIRGA_RING_RADII * VIRGA_RING_TIMES));
-    const double reach = ring_reach(layer, (double)time * ring_life(layer) / (VIRGA_RING_TIMES - 1));
-    const double share = (double)(radius + middle) / (VIRGA_RING_RADII - 1);
-    const double last = fmin(fmax((share - 0.9) / 0.1, 0), 1), ends = 1 - last * last * (3 - 2 * last);
-    return ring_half((float)((double)slopes[i + middle] * ends / (100 * share * reach)));
+    for (size_t radius = 0; radius < VIRGA_RING_RADII; radius++) {
+        const size_t middle = radius > 0 ? 0 : 1;
+        const double share = (double)(radius + middle) / (VIRGA_RING_RADII - 1);
+        const double last = fmin(fmax((share - 0.9) / 0.1, 0), 1), ends = 1 - last * last * (3 - 2 * last);
+        entries[radius] = ring_half((float)((double)slopes[radius + middle] * ends / (100 * share * reach)));
+    }
 }
 
-/* A texel stores four entries: this one, the next radius, and both at the next time (0 past the end). One fetch then
- * replaces the four that a bilinear filter needs. */
-static void fill_texels(const uint16_t *entries, uint16_t *texels)
+/* A texel stores four entries: this one, the next radius, and both at the next time. One fetch then replaces the four
+ * that a bilinear filter needs. Past the last radius they are 0. `next` may be NULL: 0. */
+static void fill_texels(const uint16_t *entries, const uint16_t *next, uint16_t *texels)
 {
-    for (size_t i = 0; i < WAVE_VALUES; i++) {
-        const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
-        for (size_t corner = 0; corner < 4; corner++) {
-            const bool there = radius + corner % 2 < VIRGA_RING_RADII && time + corner / 2 < VIRGA_RING_TIMES;
-            texels[4 * i + corner] = there ? entries[i + corner % 2 + corner / 2 * VIRGA_RING_RADII] : 0;
-        }
+    for (size_t radius = 0; radius < VIRGA_RING_RADII; radius++) {
+        const bool last = radius + 1 == VIRGA_RING_RADII;
+        texels[4 * radius] = entries[radius];
+        texels[4 * radius + 1] = last ? 0 : entries[radius + 1];
+        texels[4 * radius + 2] = next ? next[radius] : 0;
+        texels[4 * radius + 3] = next && !last ? next[radius + 1] : 0;
+    }
+}
+
+/* From the last time to the first, as a texel has the next one too. */
+static void fill_layer(int layer, const float *slopes, uint16_t *texels)
+{
+    uint16_t rows[2][VIRGA_RING_RADII];
+    for (int time = VIRGA_RING_TIMES - 1; time >= 0; time--) {
+        const size_t at = ((size_t)layer * VIRGA_RING_TIMES + (size_t)time) * VIRGA_RING_RADII;
+        const double reach = ring_reach(layer, time * ring_life(layer) / (VIRGA_RING_TIMES - 1));
+        fill_entries(slopes + at, reach, rows[time % 2]);
+        fill_texels(rows[time % 2], time + 1 < VIRGA_RING_TIMES ? rows[(time + 1) % 2] : NULL, texels + 4 * at);
     }
 }
 
@@ -59,8 +70,7 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
 {
     virga_result result = VIRGA_OK;
     float *slopes = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *slopes);
-    uint16_t *entries = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *entries);
-    if (!slopes || !entries) {
+    if (!slopes) {
         result = virga_out_of_host_memory(context, "the table of rings");
         goto error;
     }
@@ -70,13 +80,11 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
     TRY(virga_buffer_create(context, WAVE_VALUES * 4 * sizeof(uint16_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                             VIRGA_HEAP_UPLOAD, "ground.waves_upload", &ripples->upload));
     ring_table_fill(slopes, 0.5 * texel_m);
-    for (size_t i = 0; i < WAVE_VALUES; i++)
-        entries[i] = wave_entry(slopes, i);
-    fill_texels(entries, ripples->upload->memory.block.mapped);
+    for (int layer = 0; layer < VIRGA_RING_LAYERS; layer++)
+        fill_layer(layer, slopes, ripples->upload->memory.block.mapped);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
     TRY(virga_recording_result(context));
 error:
-    virga_free(&context->heap, entries);
     virga_free(&context->heap, slopes);
     return result;
 }

@@ -58,7 +58,7 @@ double ring_reach(int layer, double t);
  *
  * Radii that grow with the front put the entries where the waves are. The entries move with the wave groups, so an
  * entry changes little from one time to the next. With linear interpolation in radius and time the error is at most 6 %
- * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.05 s and uses 160 KiB of
+ * of the largest slope of that time (with 120 evenly spaced radii: 28 %). Runs in about 0.03 s and uses 160 KiB of
  * stack.
  *
  * `blur_m` is the standard deviation of a Gaussian that smooths the surface: use half a texel. Otherwise waves that are

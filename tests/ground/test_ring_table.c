@@ -135,11 +135,11 @@ static void test_damping_is_of_the_water_and_of_the_floor(void **state)
 static void test_entries_are_the_integral(void **state)
 {
     (void)state;
-    for (int n = 0; n < 300; n++) {
+    for (int n = 0; n < 3000; n++) {
         const int layer = n % VIRGA_RING_LAYERS, j = n * 71 % VIRGA_RING_TIMES, i = n * 37 % VIRGA_RING_RADII;
         const double t = time_of(layer, j), r = i * ring_reach(layer, t) / (VIRGA_RING_RADII - 1);
         const double exact = exact_slope(ring_width(layer), ring_depth(layer), r, t);
-        assert_float_equal(row(layer, j)[i], exact, 0.003 * highest(row(layer, j)));
+        assert_float_equal(row(layer, j)[i], exact, 0.005 * highest(row(layer, j)));
     }
 }
 
