@@ -84,7 +84,7 @@ static const virga_effect_layout layouts[] = {{AT(bindings), bindings, BINDINGS,
 
 static const virga_effect_pass passes[] = {
     PASS(project),       PASS(cube_project),
-    PASS(sum),           {"environment.panorama", AT(panorama_pass), VIRGA_SPIRV_ROW(environment_panorama_comp)},
+    PASS(sum),           {"environment.panorama", AT(panorama_pass), VIRGA_SPIRV(environment_panorama_comp)},
     PASS(cube_panorama),
 };
 

@@ -93,7 +93,7 @@
 /* The form of a pass for subgroups of whole units of eight lanes; before the row of the pass itself. */
 #define PASS_SHUFFLE(pass, ...) ROW(ROW_PASS, EFFECT, , pass##_shuffle, pass, .shuffles = true, __VA_ARGS__)
 #define ROW_PASS(effect, folder, pass, member, ...) \
-    {#effect "." #pass, offsetof(virga_##effect, member), VIRGA_SPIRV_ROW(effect##_##folder##pass##_comp), __VA_ARGS__}
+    {#effect "." #pass, offsetof(virga_##effect, member), VIRGA_SPIRV(effect##_##folder##pass##_comp), __VA_ARGS__}
 
 /* clang-format on */
 

@@ -62,9 +62,9 @@ static virga_graphics_def describe_row(const virga_effect *effect, const virga_e
     const virga_target_outputs outputs = virga_target_outputs_of(target);
     const virga_effect_layout *layout = &effect->type->layouts[effect->type->draw_layout];
     const virga_bindings *bindings = *(virga_bindings **)virga_effect_member(effect, layout->member);
-    const bool color_only = !row->fragment[VIRGA_OUTPUTS_BOTH].code;
+    const bool color_only = !row->fragment[VIRGA_OUTPUTS_BOTH];
     const virga_target_outputs written = color_only ? VIRGA_OUTPUTS_COLOR : outputs;
-    const bool motion = (written & VIRGA_OUTPUTS_MOTION) && row->vertex[1].code;
+    const bool motion = (written & VIRGA_OUTPUTS_MOTION) && row->vertex[1];
     return (virga_graphics_def){.vertex = row->vertex[motion + (target->def.view_mask ? VIRGA_VIEWS_FORM : 0)],
                                 .fragment = row->fragment[written],
                                 .outputs = written,

@@ -103,7 +103,7 @@ typedef struct virga_effect_layout {
 typedef struct virga_effect_pass {
     const char *name;
     size_t member; /* offset of the virga_pipeline *, or of an array of them */
-    virga_spirv shader;
+    const virga_spirv *shader;
     uint32_t forms; /* 0: one */
     uint32_t constant;
     uint32_t layout; /* index of the virga_effect_layout */
@@ -115,31 +115,29 @@ typedef struct virga_effect_pass {
 
 /* The shaders of a draw, indexed by virga_target_outputs. If a row omits a combination, the draw writes only color on
  * such targets. */
-#define VIRGA_FRAGMENT_FORMS(name)                                                               \
-    {                                                                                            \
-        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), \
-            VIRGA_SPIRV_ROW(name##_both)                                                         \
+#define VIRGA_FRAGMENT_FORMS(name)                                                                            \
+    {                                                                                                         \
+        VIRGA_SPIRV(name), VIRGA_SPIRV(name##_motion), VIRGA_SPIRV(name##_reactive), VIRGA_SPIRV(name##_both) \
     }
 /* Those of its vertices: plain, with motion, and both for passes of several views. */
-#define VIRGA_VERTEX_FORMS(name)                                                              \
-    {                                                                                         \
-        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_views), \
-            VIRGA_SPIRV_ROW(name##_motion_views)                                              \
+#define VIRGA_VERTEX_FORMS(name)                                                                                   \
+    {                                                                                                              \
+        VIRGA_SPIRV(name), VIRGA_SPIRV(name##_motion), VIRGA_SPIRV(name##_views), VIRGA_SPIRV(name##_motion_views) \
     }
 /* Without motion. */
-#define VIRGA_VERTEX_FORM(name)                                                         \
-    {                                                                                   \
-        [0] = VIRGA_SPIRV_ROW(name), [VIRGA_VIEWS_FORM] = VIRGA_SPIRV_ROW(name##_views) \
+#define VIRGA_VERTEX_FORM(name)                                                 \
+    {                                                                           \
+        [0] = VIRGA_SPIRV(name), [VIRGA_VIEWS_FORM] = VIRGA_SPIRV(name##_views) \
     }
-#define VIRGA_FORM(name)      \
-    {                         \
-        VIRGA_SPIRV_ROW(name) \
+#define VIRGA_FORM(name)  \
+    {                     \
+        VIRGA_SPIRV(name) \
     }
 
 /* Pipelines of a target that differ in specialisation constant 0: one for each entry of `constants`. */
 typedef struct virga_effect_draw {
     const char *name;
-    virga_spirv vertex[2 * VIRGA_VIEWS_FORM], fragment[VIRGA_OUTPUTS_FORMS];
+    const virga_spirv *vertex[2 * VIRGA_VIEWS_FORM], *fragment[VIRGA_OUTPUTS_FORMS];
     const uint32_t *constants;
     uint32_t constant_count;
     bool lines;     /* created only if the context draws lines */

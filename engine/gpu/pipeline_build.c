@@ -38,11 +38,11 @@ static uint32_t scan_lanes(const virga_context *context)
     return limits->maxComputeWorkGroupInvocations >= 512 && limits->maxComputeWorkGroupSize[0] >= 512 ? 512 : 256;
 }
 
-static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
+static VkResult module_create(const virga_context *context, const virga_spirv *shader, VkShaderModule *module,
                               const char **call)
 {
     const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = shader.size, .pCode = shader.code};
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = shader->size, .pCode = shader->code};
     *call = "vkCreateShaderModule";
     return context->vk.CreateShaderModule(context->device, &info, NULL, module);
 }

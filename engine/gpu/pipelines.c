@@ -27,7 +27,7 @@ static void built_destroy(virga_context *context, virga_built *built)
 /* Passes of other names have pipelines of their own, so that each has its name in a debugger. */
 static bool is_same_compute(const virga_compute_def *a, const virga_compute_def *b)
 {
-    return a->shader.code == b->shader.code && a->layout == b->layout && a->constant == b->constant &&
+    return a->shader == b->shader && a->layout == b->layout && a->constant == b->constant &&
            !strcmp(a->name, b->name);
 }
 
@@ -44,7 +44,7 @@ static bool is_same_target(const virga_graphics_def *a, const virga_graphics_def
 
 static bool is_same_graphics(const virga_graphics_def *a, const virga_graphics_def *b)
 {
-    return a->vertex.code == b->vertex.code && a->fragment.code == b->fragment.code && a->layout == b->layout &&
+    return a->vertex == b->vertex && a->fragment == b->fragment && a->layout == b->layout &&
            a->constant == b->constant && a->vertex_stride == b->vertex_stride &&
            a->blend_premultiplied == b->blend_premultiplied && a->blend_add == b->blend_add &&
            a->add_all == b->add_all && a->no_color == b->no_color && a->depth_test == b->depth_test &&
@@ -207,13 +207,15 @@ static virga_result create_graphics(virga_context *context, const virga_graphics
         return result;
     virga_graphics_def changed = *def;
     if (def->motion_attachment || def->reactive_attachment) {
-        built->code = virga_memdup(&context->heap, def->fragment.code, def->fragment.size);
+        const size_t size = def->fragment->size;
+        built->code = virga_memdup(&context->heap, def->fragment->code, size);
         if (!built->code) {
             built_destroy(context, built);
             return virga_out_of_host_memory(context, def->name);
         }
-        move_outputs(def, built->code, def->fragment.size / sizeof *built->code);
-        changed.fragment.code = built->code;
+        move_outputs(def, built->code, size / sizeof *built->code);
+        built->patched = (virga_spirv){built->code, size};
+        changed.fragment = &built->patched;
     }
     *created = built;
     return request(context, built, NULL, &changed);

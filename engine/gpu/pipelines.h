@@ -6,8 +6,7 @@
 #define VIRGA_GPU_PIPELINES_H
 
 #include "gpu/retire.h"
-
-#include <stddef.h>
+#include "gpu/spirv.h"
 
 /* Pipelines that are used together: nothing that uses them is recorded until all of them are built. */
 typedef struct virga_pipeline_group {
@@ -27,22 +26,10 @@ typedef struct virga_pipeline {
     virga_result failed;
 } virga_pipeline;
 
-typedef struct virga_spirv {
-    const uint32_t *code;
-    size_t size; /* bytes */
-} virga_spirv;
-
-/* An embedded shader: the array that the build generates from shaders/<effect>/<pass>. The first form is for tables. */
-#define VIRGA_SPIRV_ROW(name)         \
-    {                                 \
-        name##_spv, sizeof name##_spv \
-    }
-#define VIRGA_SPIRV(name) ((virga_spirv)VIRGA_SPIRV_ROW(name))
-
 /* The definition of a compute pipeline. `constant` is specialisation constant 0, if the shader has one; constant 1 is
  * the context's small_views. */
 typedef struct virga_compute_def {
-    virga_spirv shader;
+    const virga_spirv *shader;
     struct virga_layout *layout;
     uint32_t constant;
     virga_pipeline_group *group; /* (optional) */
@@ -67,7 +54,7 @@ typedef enum virga_target_outputs {
 
 /* The definition of a graphics pipeline. */
 typedef struct virga_graphics_def {
-    virga_spirv vertex, fragment;
+    const virga_spirv *vertex, *fragment;
     struct virga_layout *layout;
     VkRenderPass render_pass; /* null: dynamic rendering into these formats */
     uint32_t pass_class;      /* compatible render passes have the same number; 0: not known, so it is not shared */
@@ -109,6 +96,7 @@ typedef struct virga_built {
     virga_pipeline *waiting;   /* the users that wait for the build */
     struct virga_build *build; /* NULL: it is not waiting to be built */
     uint32_t *code;            /* a copy of the fragment shader, if it was patched for the target; NULL once built */
+    virga_spirv patched;       /* the same, as a shader */
 } virga_built;
 
 #endif

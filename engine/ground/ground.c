@@ -235,10 +235,10 @@ static const virga_effect_pass passes[] = {
     PASS(stream),
     PASS(stream_list),
     PASS(measure),
-    {"ground.measure_cached", AT(measure_cached), VIRGA_SPIRV_ROW(ground_measure_comp), .constant = VK_TRUE},
+    {"ground.measure_cached", AT(measure_cached), VIRGA_SPIRV(ground_measure_comp), .constant = VK_TRUE},
     PASS(map),
-    {"ground.far_floor", AT(far.floor_pass), VIRGA_SPIRV_ROW(ground_far_floor_comp)},
-    {"ground.far_map", AT(far.draw), VIRGA_SPIRV_ROW(ground_far_map_comp)},
+    {"ground.far_floor", AT(far.floor_pass), VIRGA_SPIRV(ground_far_floor_comp)},
+    {"ground.far_map", AT(far.draw), VIRGA_SPIRV(ground_far_map_comp)},
 };
 
 /* What shrinks to fit the memory budget: the window, the tile cache, the ripple map and the distant map. Sizes shared

@@ -210,11 +210,11 @@ static const virga_effect_layout layouts[] = {
 
 static const virga_effect_pass passes[] = {
     PASS(focus),
-    {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV_ROW(lens_aperture_comp)},
+    {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV(lens_aperture_comp)},
     PASS(sample, .forms = LENS_SAMPLES),
     PASS(tile, .forms = VIRGA_LENS_LAYERS + 1),
     PASS(reach),
-    {"lens.blocks", AT(block), VIRGA_SPIRV_ROW(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
+    {"lens.blocks", AT(block), VIRGA_SPIRV(lens_blocks_comp), .forms = VIRGA_LENS_BLOCK_FORMS},
     PASS(gather, .forms = LENS_GATHERS),
     PASS(narrow, .forms = LENS_NARROWS),
     PASS(wide, .forms = LENS_NARROWS),
@@ -222,7 +222,7 @@ static const virga_effect_pass passes[] = {
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
     PASS(paper, .forms = 2 * (VIRGA_LENS_LAYERS + 1)),
-    {"lens.circles", AT(circle), VIRGA_SPIRV_ROW(lens_circles_comp), .forms = VIRGA_LENS_LAYERS + 1},
+    {"lens.circles", AT(circle), VIRGA_SPIRV(lens_circles_comp), .forms = VIRGA_LENS_LAYERS + 1},
 };
 
 static uint32_t pass_constant(const void *object)

@@ -81,7 +81,7 @@ enum { PARTICLE_GRID_BIND_STEP, PARTICLE_GRID_BIND_PARTICLES = 2, PARTICLE_GRID_
 /* The rows of its passes. The file that uses them includes shaders/particles_shaders.h. */
 #define PARTICLE_GRID_PASS(object, prefix, pass, layout)                                                              \
     {                                                                                                                 \
-        prefix ".grid_" #pass, PARTICLE_GRID_AT(object, pass), VIRGA_SPIRV_ROW(particles_##pass##_comp), 0, 0, layout \
+        prefix ".grid_" #pass, PARTICLE_GRID_AT(object, pass), VIRGA_SPIRV(particles_##pass##_comp), 0, 0, layout \
     }
 #define PARTICLE_GRID_PASSES(object, prefix, layout)                                                            \
     PARTICLE_GRID_PASS(object, prefix, bounds, layout), PARTICLE_GRID_PASS(object, prefix, fit, layout),        \

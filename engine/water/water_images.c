@@ -42,7 +42,7 @@ VkDeviceSize water_images_bytes(const virga_water_def *def)
  * sums of what is behind where it leaves gaps. */
 typedef struct water_sums {
     const virga_offscreen *images;
-    virga_spirv vertex, fragment, behind; /* of the sums */
+    const virga_spirv *vertex, *fragment, *behind; /* of the sums */
     const char *depth_name, *sum_name, *behind_name;
     virga_pipeline **depth_pipeline, **sum_pipeline, **behind_pipeline;
 } water_sums;

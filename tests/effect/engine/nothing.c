@@ -7,7 +7,7 @@
 #include "nothing_effect.h"
 #include "scene/scene_internal.h"
 
-#include "nothing_add_comp.spv.h"
+#include "nothing_add_comp.spv.h" /* this one is not in the library */
 
 #include <stdio.h>
 #include <string.h>
@@ -26,6 +26,8 @@ struct virga_nothing {
     virga_pipeline *add;
 };
 
+static const virga_spirv nothing_add_comp_shader = {nothing_add_comp_spv, sizeof nothing_add_comp_spv};
+
 #define AT(member) offsetof(virga_nothing, member)
 
 static const virga_effect_buffer buffers[] = {
@@ -38,7 +40,7 @@ static const virga_binding_kind bindings[] = {
 
 static const virga_effect_layout layouts[] = {{AT(bindings), bindings, VIRGA_ROWS(bindings), 1, sizeof(uint32_t)}};
 
-static const virga_effect_pass passes[] = {{"nothing.add", AT(add), VIRGA_SPIRV_ROW(nothing_add_comp)}};
+static const virga_effect_pass passes[] = {{"nothing.add", AT(add), VIRGA_SPIRV(nothing_add_comp)}};
 
 static const virga_setting_row setting_rows[] = {
     VIRGA_SETTING_ROW(nothing_settings, virga_nothing_settings, U32, weight, 0, 100, 1),
