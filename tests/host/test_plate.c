@@ -403,7 +403,11 @@ static void the_shade_of_a_thing_goes_with_it(void **state)
     s->cube.moves = true;
     light_with_cube_at(s, 0.1f, under); /* from now on it moves */
     const float away = light_with_cube_at(s, -100, under);
-    const float off = light_with_cube_at(s, -5, under); /* on the map, but its shade does not reach so far */
+    const float off = light_with_cube_at(s, -5, under);     /* on the map, but its shade does not reach so far */
+    const float edge = light_with_cube_at(s, -2.2f, under); /* 1.2 m off: two directions' last look, of weight 0.3 */
+    const double end_m = 1.7, begin_m = 1.1;                /* what that look meets reaches from one to the other */
+    const double seen = 1.3 * 1.3 / (1.3 * 1.3 + begin_m * begin_m) - 1 / (1 + end_m * end_m);
+    assert_float_equal(edge / open, 1 - 2 * 0.3 * seen / 12, 0.003);
     const float back = light_with_cube_at(s, 0, under);
     s->cube.moves = false;
     s->cube.primitives[0].ground = true;

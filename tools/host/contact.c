@@ -7,9 +7,12 @@
 #include "pipeline.h"
 
 #include "contact_comp.spv.h"
+#include "contact_near_comp.spv.h"
+#include "contact_near_comp_tiles.spv.h"
 
 #define MAP_SIZE 768
-#define GROUP    8 /* of the gather pass, along a side */
+#define GROUP    8 /* of the gather pass, along a side: CONTACT_TILE of shaders/contact_maps.glsl */
+#define TILES    (MAP_SIZE / GROUP)
 #define SIDE_M   20.0
 #define AHEAD_M  6.5 /* its middle is so far before the camera */
 #define STEP_M   2.0 /* in steps, so that it is not made in every frame */
@@ -18,10 +21,14 @@
 #define REACH_M  1.8 /* of shade: as far as shaders/contact.comp looks, and what slanted looks move things by */
 #define FLAT_M   1.0 /* ground with no more between its lowest and highest point has one height */
 
-static const VkDescriptorType kinds[HOST_CONTACT_MAPS + 1] = {
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+/* Bindings beside the maps. */
+enum { WRITE_SHADE = HOST_CONTACT_MAPS, WRITE_TILES, READ_TILES, WRITE_NEAR, READ_NEAR, BINDINGS };
+
+#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+#define STORED  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+
+static const VkDescriptorType kinds[BINDINGS] = {SAMPLED, SAMPLED, SAMPLED, SAMPLED, SAMPLED,
+                                                 STORED,  STORED,  SAMPLED, STORED,  SAMPLED};
 
 static bool create_images(host_device *device, VkRenderPass pass, host_contact *c, char *error, size_t error_size)
 {
@@ -37,16 +44,45 @@ static bool create_images(host_device *device, VkRenderPass pass, host_contact *
         .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
         .name = "contact shade",
     };
+    const host_image_def tiles = {
+        .format = VK_FORMAT_R32_SFLOAT,
+        .extent = {TILES, TILES, 1},
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = "contact tiles",
+    };
     for (int i = 0; i < HOST_CONTACT_MAPS; i++)
         if (!host_image_create(device, &depth, &c->maps[i], error, error_size) ||
             !host_slice_create(device, pass, &c->maps[i], 0, 0, &c->slices[i], error, error_size))
             return false;
-    return host_image_create(device, &shade, &c->shade, error, error_size);
+    return host_image_create(device, &shade, &c->shade, error, error_size) &&
+           host_image_create(device, &tiles, &c->tiles, error, error_size) &&
+           host_image_create(device, &tiles, &c->near_tiles, error, error_size);
+}
+
+static bool create_passes(host_device *device, host_contact *c, char *error, size_t error_size)
+{
+    const VkPipelineLayout layout = c->bindings.layout;
+    return host_compute_create(device, HOST_CODE(contact_near_comp_tiles), layout, &c->find_tiles, error, error_size) &&
+           host_compute_create(device, HOST_CODE(contact_near_comp), layout, &c->find_near, error, error_size) &&
+           host_compute_create(device, HOST_CODE(contact_comp), layout, &c->gather, error, error_size);
+}
+
+static void write_set(const host_device *device, const host_contact *c)
+{
+    const VkDescriptorSet set = c->bindings.sets[0];
+    for (uint32_t i = 0; i < HOST_CONTACT_MAPS; i++)
+        host_set_write_image(device, set, i, c->sampler, c->maps[i].view,
+                             VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    host_set_write_image(device, set, WRITE_SHADE, VK_NULL_HANDLE, c->shade.view, VK_IMAGE_LAYOUT_GENERAL);
+    host_set_write_image(device, set, WRITE_TILES, VK_NULL_HANDLE, c->tiles.view, VK_IMAGE_LAYOUT_GENERAL);
+    host_set_write_image(device, set, READ_TILES, c->sampler, c->tiles.view, VK_IMAGE_LAYOUT_GENERAL);
+    host_set_write_image(device, set, WRITE_NEAR, VK_NULL_HANDLE, c->near_tiles.view, VK_IMAGE_LAYOUT_GENERAL);
+    host_set_write_image(device, set, READ_NEAR, c->sampler, c->near_tiles.view, VK_IMAGE_LAYOUT_GENERAL);
 }
 
 bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *c, char *error, size_t error_size)
 {
-    const host_bindings_def def = {.shape = {kinds, HOST_CONTACT_MAPS + 1, VK_SHADER_STAGE_COMPUTE_BIT},
+    const host_bindings_def def = {.shape = {kinds, BINDINGS, VK_SHADER_STAGE_COMPUTE_BIT},
                                    .set_count = 1,
                                    .push_stages = VK_SHADER_STAGE_COMPUTE_BIT,
                                    .push_bytes = sizeof(struct host_contact_gpu)};
@@ -55,25 +91,25 @@ bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *c
     if (!create_images(device, pass, c, error, error_size) ||
         !host_bindings_create(device, &def, &c->bindings, error, error_size) ||
         !host_sampler_create(device, HOST_SAMPLE_NEAREST, &c->sampler, error, error_size) ||
-        !host_compute_create(device, HOST_CODE(contact_comp), c->bindings.layout, &c->gather, error, error_size))
+        !create_passes(device, c, error, error_size))
         return false;
-    for (uint32_t i = 0; i < HOST_CONTACT_MAPS; i++)
-        host_set_write_image(device, c->bindings.sets[0], i, c->sampler, c->maps[i].view,
-                             VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
-    host_set_write_image(device, c->bindings.sets[0], HOST_CONTACT_MAPS, VK_NULL_HANDLE, c->shade.view,
-                         VK_IMAGE_LAYOUT_GENERAL);
+    write_set(device, c);
     return true;
 }
 
 void host_contact_destroy(host_device *device, host_contact *c)
 {
     vkDestroyPipeline(device->device, c->gather, NULL);
+    vkDestroyPipeline(device->device, c->find_near, NULL);
+    vkDestroyPipeline(device->device, c->find_tiles, NULL);
     host_bindings_destroy(device, &c->bindings);
     vkDestroySampler(device->device, c->sampler, NULL);
     for (int i = 0; i < HOST_CONTACT_MAPS; i++) {
         host_slice_destroy(device, &c->slices[i]);
         host_image_destroy(device, &c->maps[i]);
     }
+    host_image_destroy(device, &c->near_tiles);
+    host_image_destroy(device, &c->tiles);
     host_image_destroy(device, &c->shade);
     memset(c, 0, sizeof *c);
 }
@@ -183,6 +219,29 @@ static void groups_of(const host_contact *c, const host_contact_box *area, uint3
     }
 }
 
+/* What the pass before wrote is complete. */
+static void between(VkCommandBuffer cmd)
+{
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+}
+
+/* The highest tops near each workgroup of the gather pass, all over the map: a hundredth of its work. */
+static void find_highest(const host_contact *c, VkCommandBuffer cmd)
+{
+    const host_image *images[2] = {&c->tiles, &c->near_tiles};
+    for (int i = 0; i < 2; i++)
+        host_image_barrier(cmd, images[i], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+                           VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                           VK_ACCESS_SHADER_WRITE_BIT);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->find_tiles);
+    vkCmdDispatch(cmd, TILES / GROUP, TILES / GROUP, 1);
+    between(cmd);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->find_near);
+    vkCmdDispatch(cmd, TILES / GROUP, TILES / GROUP, 1);
+    between(cmd);
+}
+
 void host_contact_gather(host_contact *c, VkCommandBuffer cmd, bool placed, const host_contact_box *moving)
 {
     uint32_t first[2] = {0}, count[2] = {MAP_SIZE / GROUP, MAP_SIZE / GROUP};
@@ -198,9 +257,10 @@ void host_contact_gather(host_contact *c, VkCommandBuffer cmd, bool placed, cons
     host_image_barrier(cmd, &c->shade, placed ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->gather);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->bindings.layout, 0, 1, c->bindings.sets, 0, NULL);
     vkCmdPushConstants(cmd, c->bindings.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+    find_highest(c, cmd);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, c->gather);
     vkCmdDispatch(cmd, count[0], count[1], 1);
     host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,

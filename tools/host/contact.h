@@ -37,9 +37,11 @@ typedef struct host_contact {
     /* x: share of the sky that is left; y: height of the ground above low_m; z, w: from where to where above it
      * something stands */
     host_image shade;
+    /* By workgroup of the pass that makes it: the highest top on its texels, and within reach of them. */
+    host_image tiles, near_tiles;
     host_bindings bindings;
     VkSampler sampler;
-    VkPipeline gather;
+    VkPipeline find_tiles, find_near, gather;
 
     bool ready;             /* it is made, so: */
     double low_m[3];        /* its low corner, and the height of depth 0 as seen from below */

@@ -264,7 +264,7 @@ void host_skylight_gather(host_skylight *s, VkCommandBuffer cmd)
                        VK_ACCESS_SHADER_WRITE_BIT);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->gather);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->bindings.layout, 0, 1, s->bindings.sets, 0, NULL);
-    vkCmdDispatch(cmd, HOST_SKYLIGHT_SIDE / 8, HOST_SKYLIGHT_HEIGHT / 4, HOST_SKYLIGHT_SIDE / 4);
+    vkCmdDispatch(cmd, HOST_SKYLIGHT_SIDE / 8, HOST_SKYLIGHT_HEIGHT / HOST_SKYLIGHT_RUN / 2, HOST_SKYLIGHT_SIDE / 4);
     host_image_barrier(cmd, &s->volume, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);

@@ -8,19 +8,15 @@
 // voxels of the skylight know them, and less and less towards the last distance.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
+#include "contact_maps.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = CONTACT_TILE, local_size_y = CONTACT_TILE) in;
 
-layout(set = 0, binding = 0) uniform sampler2D ground_map;
-layout(set = 0, binding = 1) uniform sampler2D under_map;
-layout(set = 0, binding = 2) uniform sampler2D over_map;
-layout(set = 0, binding = 3) uniform sampler2D moving_under_map;
-layout(set = 0, binding = 4) uniform sampler2D moving_over_map;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D shade;
-layout(push_constant) uniform Push { host_contact_gpu push; };
+layout(set = 0, binding = 9) uniform sampler2D near_map; // see contact_near.comp
 
 const int DIRECTIONS = 12, STEPS = 6;
-const float AT_M[STEPS] = float[](0.02, 0.06, 0.15, 0.35, 0.75, 1.4);
+const float AT_M[STEPS] = float[](0.02, 0.06, 0.15, 0.35, 0.75, CONTACT_REACH_M);
 const float END_M[STEPS + 1] = float[](0.01, 0.04, 0.1, 0.25, 0.55, 1.1, 1.7); // what is at one reaches so far
 const float WEIGHT[STEPS] = float[](1.0, 1.0, 1.0, 1.0, 0.7, 0.3);
 const float TALL_M = 1.3;
@@ -28,24 +24,15 @@ const float STANDS_M = 0.02; // what does not rise that far above the ground is 
 
 float below(float rise, float away) { return rise * rise / (rise * rise + away * away); } // sin^2 of the elevation
 
-// Heights above the map's bottom.
-float under_at(ivec2 at)
-{
-    return min(texelFetch(under_map, at, 0).r, texelFetch(moving_under_map, at, 0).r) * push.height_m;
-}
-
-float over_at(ivec2 at)
-{
-    return (1.0 - min(texelFetch(over_map, at, 0).r, texelFetch(moving_over_map, at, 0).r)) * push.height_m;
-}
-
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy + uvec2(push.first_x, push.first_y));
     const ivec2 last = imageSize(shade) - 1;
     const float ground = texelFetch(ground_map, texel, 0).r * push.height_m;
     float hidden = 0.0;
-    for (int d = 0; d < DIRECTIONS; d++) {
+    // Where nothing within reach stands on the ground, no direction is looked into.
+    const bool any = texelFetch(near_map, texel / CONTACT_TILE, 0).r - ground >= STANDS_M;
+    for (int d = 0; d < (any ? DIRECTIONS : 0); d++) {
         const float turn = 6.28318531 * (float(d) + 0.5) / float(DIRECTIONS);
         const vec2 along = vec2(cos(turn), sin(turn)) / push.texel_m;
         float low = 1.0, high = 0.0, most = 0.0;

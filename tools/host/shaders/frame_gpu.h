@@ -85,6 +85,7 @@ struct host_surface_gpu { /* push constants */
 #define HOST_SKYLIGHT_DIRECTIONS 40 /* over the upper half of all directions */
 #define HOST_SKYLIGHT_SIDE       96 /* voxels along x and z */
 #define HOST_SKYLIGHT_HEIGHT     32 /* and along y */
+#define HOST_SKYLIGHT_RUN        4  /* of them that one invocation fills, along y */
 
 struct host_skylight_gpu {
     HOST_MAT4 map_from_world[HOST_SKYLIGHT_DIRECTIONS];
