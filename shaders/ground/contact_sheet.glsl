@@ -35,7 +35,7 @@ float sheet_nl_of(uint contact, Trod trod)
 {
     const bool foot = contact < min(tick.contact_count, uint(VIRGA_GROUND_CONTACTS)) &&
                       tick.contacts[contact].radius_m <= 0.0;
-    const float nl = trod.moved_nl * rising_share(trod.deep_m, foot_speed(contact, trod.deep_m));
+    const float nl = trod.moved_nl * rising_share(contact, trod.deep_m, foot_speed(contact, trod.deep_m));
     return foot && nl >= LEAST_SHEET_NL ? nl : 0.0;
 }
 

@@ -15,9 +15,10 @@
  *  - A film of 0.05 mm stays, and what grass and soil hide. So the track is dry until water flows or rains into it.
  *
  * The water under a foot that treads down is pressed out of its patch on all sides. Where it is fast enough it runs
- * against the water beside and rises as a sheet: at 0.7 m/s a quarter of 14 mm of water and a half of 8 mm, but none of
- * 2 mm, which the sole's profile holds. A fifth of the sheet flies off as drops of 1 to 6 mm, the rest falls back. The
- * splash effect draws it as an oval crown, without a cost of its own.
+ * against the water beside and rises as a sheet: at 0.7 m/s a quarter of 14 mm of water and a half of 8 mm. 2 mm fit
+ * into the sole's profile. Of so thin a film, as on a pavement in the rain, a twentieth rises around the edge. A fifth
+ * of the sheet flies off as drops of 1 to 6 mm, the rest falls back. The splash effect draws a sheet of 3 ml or more as
+ * an oval crown, without a cost of its own.
  *
  * Where water of a puddle is moved, waves begin (virga_ground_settings.wake_waves): rings around a step, and behind a
  * wheel that is faster than sqrt(g h), 0.3 m/s in 8 mm of water, a wedge.
