@@ -83,6 +83,10 @@ HOLLOWS = [(-1.6, 2.6, 0.020, 1.2), (0.9, -1.5, 0.018, 1.0), (-0.4, -6.2, 0.022,
            (1.9, -10.0, 0.018, 1.2), (-2.1, -12.5, 0.020, 1.1), (0.3, -23.5, 0.022, 1.6), (-2.4, -1.2, 0.016, 0.8),
            (-1.0, -30.0, 0.02, 1.5), (1.4, 9.5, 0.02, 1.2)]
 
+# The same of the pavements, where slabs have settled.
+SETTLED = [(5.12, -2.7, 0.026, 0.6), (4.6, -7.2, 0.022, 0.6), (-4.6, 1.6, 0.024, 0.6), (4.8, 3.9, 0.022, 0.55),
+           (-4.5, -18.2, 0.024, 0.7), (4.7, -17.6, 0.024, 0.6)]
+
 # Along the street, of gully grates on both sides. The channel before the kerb falls towards them, by 4 mm per metre.
 GRATES = (4.6, -7.4, -20.8, -33.0)
 CHANNEL_FALL, CHANNEL_RUN = 0.004, 6.6
@@ -100,6 +104,14 @@ def road_height(x, z):
         y -= depth * edge * math.exp(-((x - hx) ** 2 + (z - hz) ** 2) / (radius * radius * 0.6))
     channel = min(max((abs(x) - HALF_ASPHALT) / 0.2, 0.0), 1.0)
     return y - channel * CHANNEL_FALL * max(CHANNEL_RUN - min(abs(z - grate) for grate in GRATES), 0.0)
+
+
+def pavement_height(x, z=None):
+    """Falls to the kerb; with the hollows of settled slabs at a z."""
+    y = KERB + 0.02 * (abs(x) - 3.64)
+    for hx, hz, depth, radius in SETTLED if z is not None else ():
+        y -= depth * math.exp(-((x - hx) ** 2 + (z - hz) ** 2) / (radius * radius * 0.6))
+    return y
 
 
 def span(start, stop, steps):
@@ -120,9 +132,9 @@ def make_ground(scene):
     for side in (-1, 1):
         xs = sorted((side * HALF_ASPHALT, side * 3.3, side * HALF_ROAD))
         sheet(g, "cobble_stone", xs, ROAD_ZS, road_height)
-        inner, outer = side * 3.64, side * HALF_STREET
-        sheet(g, "concrete_slabs", sorted((inner, outer)), [NEAR_Z, FAR_Z],
-              lambda x, z: KERB + 0.02 * (abs(x) - 3.64))
+        zs = {NEAR_Z, FAR_Z} | {round(z + 0.16 * k, 3) for x, z, _, _ in SETTLED if x * side > 0 for k in range(-7, 8)}
+        sheet(g, "concrete_slabs", span(*sorted((side * 3.64, side * HALF_STREET)), 12), sorted(zs, reverse=True),
+              pavement_height)
     sheet(g, "cobble_stone", span(-32, 32, 4), span(FAR_Z, END_Z, 4), lambda x, z: 0.0)
     # Under church and houses, too: between them one sees to the ground behind.
     sheet(g, "cobble_stone", span(-32, 32, 4), [END_Z, END_Z - 24.0], lambda x, z: 0.0)
@@ -669,10 +681,6 @@ def make_awning(scene):
         g.tube("steel_black", [point(x, t)[:1] + (point(x, t)[1] - 0.035,) + point(x, t)[2:] for t in (0.0, 0.5, 1.0)],
                0.012, 5)
     scene.place(g)
-
-
-def pavement_height(x):
-    return KERB + 0.02 * (abs(x) - 3.64)
 
 
 def make_market(scene):

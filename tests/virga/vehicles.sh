@@ -93,6 +93,10 @@ vehicles:
 YAML
 draw walk steps --stats --frames 1-12
 budget steps 100000 || fail "water of feet"
+# One that goes down a little while it stands treads as hard.
+draw walk down --stats --frames 1-12 --set 'vehicles.0.keys.0.position_m=[0, 0.03, 1.5]' \
+    --set 'vehicles.0.keys.1.position_m=[0, -0.1, -1.5]'
+budget down 5000000 || fail "water of feet that go down"
 
 # refuse WHAT OPTION...: the check refuses, in one line that has WHAT.
 refuse() {

@@ -365,8 +365,9 @@ static double way_m(const scene_vehicle *from, double time_s)
     return way;
 }
 
-static void sole_at(const scene_vehicle *from, const scene_foot *foot, double time_s, float transform[12],
-                    double sole_m[3])
+/* Returns how high it is lifted. */
+static double sole_at(const scene_vehicle *from, const scene_foot *foot, double time_s, float transform[12],
+                      double sole_m[3])
 {
     double offset_m[2], local_m[3];
     walk_foot_at(way_m(from, time_s) / from->stride_m - foot->lands, from->stride_m, offset_m);
@@ -375,6 +376,7 @@ static void sole_at(const scene_vehicle *from, const scene_foot *foot, double ti
     local_m[1] += offset_m[1];
     transform_at(from, time_s, transform);
     to_world(transform, local_m, sole_m);
+    return offset_m[1];
 }
 
 /* The fastest that a sole came down in a frame. One that stands at its end may have landed in it, and that is what
@@ -399,15 +401,15 @@ static void place_foot(const scene_vehicle *from, uint32_t index, double time_s,
     float now[12], before[12];
     double then_m[3];
     sole_at(from, given, time_s - STEP_S, before, then_m);
-    sole_at(from, given, time_s, now, out->sole_m);
+    const double lifted_m = sole_at(from, given, time_s, now, out->sole_m);
     out->length_m = (float)given->length_m;
     out->width_m = (float)given->width_m;
     for (int axis = 0; axis < 3; axis++) {
         out->velocity_m_s[axis] = (float)fmin(fmax((out->sole_m[axis] - then_m[axis]) / STEP_S, -1000), 1000);
         out->heading[axis] = -now[4 * axis + 2];
     }
-    if (out->velocity_m_s[1] > -0.01f)
-        out->velocity_m_s[1] += (float)fmax(falls_m_s(from, given, time_s, frame_s), -1000);
+    if (lifted_m <= 0)
+        out->velocity_m_s[1] = (float)fmax(falls_m_s(from, given, time_s, frame_s), -1000);
 }
 
 /* Behind the lights of the scene. */
