@@ -15,7 +15,7 @@ typedef struct virga_drip_gpu virga_drip_gpu;
 /* A place, 48 bytes. */
 struct virga_drip_site_gpu {
     float position[3]; /* m, relative to the first site */
-    float catch_m2;    /* level area whose rain drains to it */
+    float catch_m2;    /* level area whose rain drains to it, without what is sheltered of it */
     float drain;       /* nl/s that leave a film of n nl, over n^3, see engine/splash/splash_drips.c */
     uint seed;         /* a number of its own */
     float drops;       /* that fly as one */

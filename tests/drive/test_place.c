@@ -22,7 +22,7 @@ static const float corners[8][3] = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-
                                     {-20, 9, -20}, {20, 9, -20}, {20, 9, 20}, {-20, 9, 20}};
 
 /* A square of ground, and walls around it. */
-static void make(bool walls, place_heights *heights)
+static void make(bool walls, host_heights *heights)
 {
     static const uint32_t indices[30] = {0, 1, 2, 0, 2, 3, 0, 1, 5, 0, 5, 4, 1, 2, 6,
                                          1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
@@ -32,14 +32,14 @@ static void make(bool walls, place_heights *heights)
         .primitives = &primitive, .primitive_count = 1, .low = {-20, 0, -20}, .high = {20, walls ? 9 : 0, 20}};
     for (int i = 0; i < 8; i++)
         memcpy(vertices[i].position, corners[i], sizeof corners[i]);
-    assert_true(place_heights_make(&mesh, vertices, indices, heights));
+    assert_true(host_heights_of_mesh(&mesh, vertices, indices, PLACE_CELL_M, heights));
 }
 
 /* Above the horizon the sky, below it wet asphalt: Y00 2 pi (1 + 0.06 / 2), and of degree 1 the half of 2 pi. */
 static void in_the_open_it_is_the_sky_above_and_the_road_below(void **state)
 {
     (void)state;
-    place_heights heights = {0};
+    host_heights heights = {0};
     const double at[3] = {0, 1.7, 0};
     float sh[9][3];
     for (int grid = 0; grid < 2; grid++) { /* without heights, and with those of a level place */
@@ -54,7 +54,7 @@ static void in_the_open_it_is_the_sky_above_and_the_road_below(void **state)
                 assert_float_equal((double)sh[k][c], k == 6 || k == 8 ? sh[k][c] : 0, 1e-5);
         }
     }
-    place_heights_free(&heights);
+    host_heights_free(&heights);
 }
 
 /* In the middle of a yard of 40 x 40 m with walls of 9 m. Towards the angle a the wall is 20 m / max(|cos|, |sin|)
@@ -62,7 +62,7 @@ static void in_the_open_it_is_the_sky_above_and_the_road_below(void **state)
 static void walls_hide_as_much_as_their_height_says(void **state)
 {
     (void)state;
-    place_heights heights = {0};
+    host_heights heights = {0};
     const double at[3] = {0, 1.7, 0};
     double open = 0, hidden = 0;
     float sh[9][3];
@@ -83,7 +83,7 @@ static void walls_hide_as_much_as_their_height_says(void **state)
     const double beside[3] = {17, 1.7, 0};
     place_light(&heights, white, beside, sh);
     assert_true(sh[3][0] < -0.1f);
-    place_heights_free(&heights);
+    host_heights_free(&heights);
 }
 
 int main(void)

@@ -150,6 +150,34 @@ static void in_steady_rain_an_edge_drips_what_it_gets(void **state)
     splash_fixture_close(&f);
 }
 
+/* Below a bridge the film that was there runs off, as after rain; half a shelter halves what comes. */
+static void what_is_sheltered_gets_less_rain(void **state)
+{
+    (void)state;
+    double film[SITES], caught = 0;
+    begin(true, 4096);
+    play(600, 15);
+    for (uint32_t i = 0; i < SITES; i++) {
+        film[i] = f.drips[i].film_nl;
+        sites[i].shelter = 0.5f * (float)(i % 3);
+    }
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    const uint64_t before_nl = splash_fixture_count(&f, VIRGA_SPLASH_DRIP_IN);
+    for (uint32_t tick = 0; tick < 600; tick++)
+        for (uint32_t i = 0; i < SITES; i++) {
+            const double came = inflow_of(&sites[i]) * (1 - (double)sites[i].shelter) * TICK_S;
+            film[i] += came;
+            caught += came;
+            film[i] -= fmin(flow_of(&sites[i], film[i]) * TICK_S, film[i]);
+        }
+    play(600, 15);
+    for (uint32_t i = 0; i < SITES; i++)
+        assert_float_equal((double)f.drips[i].film_nl / film[i], 1, 5e-3);
+    assert_float_equal((double)(splash_fixture_count(&f, VIRGA_SPLASH_DRIP_IN) - before_nl) / caught, 1, 1e-3);
+    assert_counted();
+    splash_fixture_close(&f);
+}
+
 /* Every drop in the air is below a site of its own, as far as it falls in its age, and has the speed of that. Air takes
  * less than 4 % of the speed in 0.25 s. */
 static void drops_fall_from_their_edges(void **state)
@@ -314,6 +342,9 @@ static void wrong_sites_are_refused(void **state)
     sites[3].drops = 65;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     choose_sites();
+    sites[3].shelter = 1.1f;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    choose_sites();
     sites[3].velocity_m_s[2] = -21;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     sites[3].moves = true;
@@ -334,6 +365,7 @@ int main(void)
         cmocka_unit_test(drops_without_room_hang_until_there_is_some),
         cmocka_unit_test(a_film_grows_and_drains_as_in_double_precision),
         cmocka_unit_test(in_steady_rain_an_edge_drips_what_it_gets),
+        cmocka_unit_test(what_is_sheltered_gets_less_rain),
         cmocka_unit_test(drops_fall_from_their_edges),
         cmocka_unit_test(steps_of_any_length_give_the_same_bits),
         cmocka_unit_test(sites_may_move_and_become_fewer),

@@ -162,7 +162,7 @@ static bool create_rain(drive *d)
     def.with_ground = true;
     def.with_splash = true;
     def.with_contacts = true; /* the wheels throw water */
-    def.splash.max_drips = MAX_DRIPS;
+    def.splash.max_drips = MAX_DRIPS + MAX_CAR_DRIPS;
     def.panes = &windshield;
     def.pane_count = 1;
     virga_scene_cost(&def, d->kind, d->stage.width, d->stage.height, &d->expected);
@@ -215,10 +215,12 @@ static bool set_rain(drive *d)
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
 
-/* Edges of awnings, balconies and trees, found when the street was loaded. */
+/* Edges of awnings, balconies and trees, found when the street was loaded, and those of the car where it is now. */
 static bool set_drips(drive *d)
 {
-    return fine(d, virga_splash_set_drips(virga_scene_splash(d->rain), d->drips, d->drip_count), "edges that drip");
+    move_car_drips(d);
+    return fine(d, virga_splash_set_drips(virga_scene_splash(d->rain), d->drips, d->drip_count + d->car_drip_count),
+                "edges that drip");
 }
 
 static bool set_rate(drive *d)
@@ -463,7 +465,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
         frame.ripple_center_m[axis] = d->car.position_m[axis] - 3.0 * (double)d->car.axes[6 + axis];
     }
     if (!fine(d, virga_frame_begin(d->context, d->device.frame, d->device.completed), "frame") ||
-        !fine(d, virga_scene_lighting_set(d->rain, &d->place), "light") ||
+        !fine(d, virga_scene_lighting_set(d->rain, &d->place), "light") || !set_drips(d) ||
         !fine(d, virga_scene_record(d->rain, cmd, &frame), "step"))
         return false;
 
@@ -554,7 +556,7 @@ static bool run(drive *d)
     if (!open_device(d) ||
         !stage_create(&d->stage, &d->device, d->window, d->surface, d->chosen.width, d->chosen.height, d->error,
                       sizeof d->error) ||
-        !create_context(d) || !create_rain(d) || !set_rain(d) || !load_world(d) || !set_drips(d))
+        !create_context(d) || !create_rain(d) || !set_rain(d) || !load_world(d))
         return false;
     car_place(&d->car, &d->track, d->chosen.start_m);
     light_up(d);

@@ -19,6 +19,7 @@
 #define WIPERS        2
 #define MAX_RATE_MM_H 200
 #define MAX_DRIPS     512 /* pieces of edges from which rain drips */
+#define MAX_CAR_DRIPS 128 /* and of the car's */
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];
@@ -46,8 +47,8 @@ typedef struct drive {
     stage stage;
     host_environment environment;
     host_mesh street, blocks, body, wipers;
-    boxes boxes;           /* of the wipers at their current angles */
-    place_heights heights; /* of the street, for the light of a place */
+    boxes boxes;          /* of the wipers at their current angles */
+    host_heights heights; /* of the street, for the light of a place and for what keeps rain off the car */
     track track;
     car car;
     car_keys keys;
@@ -75,8 +76,10 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
-    virga_drip_site drips[MAX_DRIPS]; /* found in the street's mesh */
-    uint32_t drip_count;
+    virga_drip_site drips[MAX_DRIPS + MAX_CAR_DRIPS]; /* found in the street's mesh; behind them the car's, now */
+    virga_drip_site car_drips[MAX_CAR_DRIPS];         /* in the car's own frame */
+    uint32_t drip_count, car_drip_count;
+    double car_top_m;           /* over its origin */
     VkPhysicalDeviceType kind;  /* of the device ... */
     virga_quality quality;      /* ... which the definitions are for ... */
     virga_scene_costs expected; /* ... and what they may take on it */
@@ -96,6 +99,7 @@ void close_window(drive *d);
 
 /* world.c: loads street, car and sky, finds the edges that drip, and draws all into the stage's color and depth. */
 bool load_world(drive *d);
+void move_car_drips(drive *d);
 void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps, const virga_walls *walls);
 void unload_world(drive *d);
 

@@ -2,84 +2,25 @@
 #include "place.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <virga/shared/sh.h>
 
-#define NOTHING_M (-1e9f)
-#define MAX_SIDE  4096
-#define AROUND    24   /* directions, in each of which the sky begins somewhere */
-#define ABOVE     16   /* bands of equal solid angle, over the horizon and below it */
-#define FAR_M     60.0 /* what is farther hides less than a tenth of a house does */
-#define CLEAR_M   2.0  /* a post or a bridge beside or above the camera is no wall */
-#define FRONTS    0.22 /* albedo of brick and plaster */
-#define ROAD      0.06 /* of wet asphalt */
-
-/* ---- heights */
-
-/* Marks the cells of a triangle, by points on it that are half a cell apart: walls have no area from above. */
-static void mark_triangle(place_heights *h, const float *a, const float *b, const float *c)
-{
-    double u[3], w[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = (double)b[k] - (double)a[k];
-        w[k] = (double)c[k] - (double)a[k];
-    }
-    const double longest = fmax(hypot(u[0], u[2]), fmax(hypot(w[0], w[2]), hypot(u[0] - w[0], u[2] - w[2])));
-    const int steps = (int)fmin(ceil(longest / (0.5 * PLACE_CELL_M)), 4 * MAX_SIDE) + 1;
-    for (int i = 0; i <= steps; i++)
-        for (int k = 0; i + k <= steps; k++) {
-            const double s = (double)i / steps, t = (double)k / steps;
-            const double x = (double)a[0] + s * u[0] + t * w[0], z = (double)a[2] + s * u[2] + t * w[2];
-            const uint32_t column = (uint32_t)((x - h->low_m[0]) / PLACE_CELL_M),
-                           row = (uint32_t)((z - h->low_m[1]) / PLACE_CELL_M);
-            float *high = &h->high_m[row * h->columns + column];
-            *high = fmaxf(*high, (float)((double)a[1] + s * u[1] + t * w[1]));
-        }
-}
-
-bool place_heights_make(const host_mesh *mesh, const host_vertex *vertices, const uint32_t *indices,
-                        place_heights *heights)
-{
-    uint32_t *const sides[2] = {&heights->columns, &heights->rows};
-    for (int axis = 0; axis < 2; axis++) {
-        const double size_m = (double)mesh->high[2 * axis] - (double)mesh->low[2 * axis];
-        heights->low_m[axis] = (double)mesh->low[2 * axis] - PLACE_CELL_M;
-        *sides[axis] = (uint32_t)fmin(fmax(size_m, 0) / PLACE_CELL_M + 3, MAX_SIDE);
-    }
-    const size_t cells = (size_t)heights->columns * heights->rows;
-    heights->high_m = malloc(cells * sizeof *heights->high_m);
-    if (!heights->high_m)
-        return false;
-    for (size_t i = 0; i < cells; i++)
-        heights->high_m[i] = NOTHING_M;
-    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        const host_primitive *primitive = &mesh->primitives[i];
-        for (uint32_t k = 0; k + 2 < primitive->index_count && primitive->cover > 0.99f; k += 3) {
-            const uint32_t *index = &indices[primitive->first_index + k];
-            mark_triangle(heights, vertices[index[0]].position, vertices[index[1]].position,
-                          vertices[index[2]].position);
-        }
-    }
-    return true;
-}
-
-void place_heights_free(place_heights *heights)
-{
-    free(heights->high_m);
-    memset(heights, 0, sizeof *heights);
-}
+#define AROUND  24   /* directions, in each of which the sky begins somewhere */
+#define ABOVE   16   /* bands of equal solid angle, over the horizon and below it */
+#define FAR_M   60.0 /* what is farther hides less than a tenth of a house does */
+#define CLEAR_M 2.0  /* a post or a bridge beside or above the camera is no wall */
+#define FRONTS  0.22 /* albedo of brick and plaster */
+#define ROAD    0.06 /* of wet asphalt */
 
 /* ---- light */
 
 /* The sine of the angle up to which things hide the sky in a direction; 0: nothing does. */
-static double horizon(const place_heights *h, const double at_m[3], double x, double z)
+static double horizon(const host_heights *h, const double at_m[3], double x, double z)
 {
     double steepest = 0;
-    for (double way = CLEAR_M; way < FAR_M; way += 0.5 * PLACE_CELL_M) {
-        const double column = (at_m[0] + way * x - h->low_m[0]) / PLACE_CELL_M,
-                     row = (at_m[2] + way * z - h->low_m[1]) / PLACE_CELL_M;
+    for (double way = CLEAR_M; way < FAR_M; way += 0.5 * h->cell_m) {
+        const double column = (at_m[0] + way * x - h->low_m[0]) / h->cell_m,
+                     row = (at_m[2] + way * z - h->low_m[1]) / h->cell_m;
         if (!(column >= 0 && row >= 0 && column < h->columns && row < h->rows))
             break;
         const float high = h->high_m[(size_t)row * h->columns + (size_t)column];
@@ -122,7 +63,7 @@ static void add_direction(const float sky[9][3], const float lit[3], const doubl
  *
  * What stands there has the light of half of the sky's mean radiance, as a wall sees it, which a road between houses
  * does as well: irradiance over pi. In the open, where nothing hides anything, above the horizon it is the sky. */
-void place_light(const place_heights *heights, const float sky[9][3], const double at_m[3], float out[9][3])
+void place_light(const host_heights *heights, const float sky[9][3], const double at_m[3], float out[9][3])
 {
     const double angle = 2 * M_PI / AROUND * 2 / (2 * ABOVE);
     double sum[9][3] = {{0}};

@@ -2,6 +2,7 @@
 #include "game.h"
 
 #include "drip_edges.h"
+#include "drip_model.h"
 #include "exr.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 
 #define DRIPS_HALF_M 48.0 /* of the square in which edges drip */
 #define GUTTER_M     2.5  /* where water runs farther, a gutter takes it */
+#define DRIP_STEP_S  0.01 /* over which a velocity is taken */
 
 static bool add_boxes(drive *d, const boxes *b, const host_material *material, host_mesh *mesh)
 {
@@ -37,13 +39,67 @@ static bool find_drips(drive *d, const host_vertex *vertices, const uint32_t *in
     return d->drip_count != UINT32_MAX || host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
 }
 
+/* Of the car's outside. What is never drawn is no edge, and wheels are where they are not at rest. */
+static bool find_car_drips(drive *d, const host_vertex *vertices, const uint32_t *indices)
+{
+    host_primitive outside[MAX_PARTS];
+    host_mesh shell = d->body;
+    uint32_t found = 0;
+    shell.primitives = outside;
+    shell.primitive_count = 0;
+    for (uint32_t i = 0; i < d->body.primitive_count && i < MAX_PARTS; i++) {
+        const host_primitive *primitive = &d->body.primitives[i];
+        const car_part part = car_part_of(d->body.materials[primitive->material].name);
+        if (part != CAR_BODY && part != CAR_WINDOWS)
+            continue;
+        outside[shell.primitive_count] = *primitive;
+        outside[shell.primitive_count++].ground = false;
+        for (uint32_t k = 0; k < primitive->index_count; k++) {
+            const host_vertex *vertex = &vertices[indices[primitive->first_index + k]];
+            d->car_top_m = fmax(d->car_top_m, (double)vertex->position[1]);
+        }
+    }
+    d->car_drip_count = host_drip_model_find(&shell, vertices, indices, 0, d->car_drips, MAX_CAR_DRIPS, &found);
+    return d->car_drip_count != UINT32_MAX ||
+           host_fail(d->error, sizeof d->error, "no memory for the edges of the car that drip");
+}
+
+static bool load_car(drive *d)
+{
+    host_vertex *vertices = NULL;
+    uint32_t *indices = NULL;
+    const bool ok = host_mesh_load_kept(&d->device, DRIVE_ASSETS "/scenes/car.glb", NULL, &d->body, &vertices, &indices,
+                                        d->error, sizeof d->error) &&
+                    find_car_drips(d, vertices, indices);
+    free(vertices);
+    free(indices);
+    return ok;
+}
+
+/* The places move along with the car; below a bridge its film only runs off. */
+void move_car_drips(drive *d)
+{
+    float now[12], before[12];
+    virga_walls walls;
+    virga_drip_site *sites = d->drips + d->drip_count;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            now[4 * row + column] = before[4 * row + column] = d->car.axes[3 * column + row];
+        now[4 * row + 3] = (float)d->car.position_m[row];
+        before[4 * row + 3] = now[4 * row + 3] - (float)DRIP_STEP_S * d->car.velocity_m_s[row];
+    }
+    host_drip_model_move(d->car_drips, d->car_drip_count, now, before, DRIP_STEP_S, sites);
+    virga_rain_walls_get(virga_scene_rain(d->rain), &walls);
+    host_heights_shade(&d->heights, d->car.position_m[1] + d->car_top_m, walls.slant, sites, d->car_drip_count);
+}
+
 static bool load_street(drive *d)
 {
     host_vertex *vertices = NULL;
     uint32_t *indices = NULL;
     const bool ok = host_mesh_load_kept(&d->device, d->chosen.model, NULL, &d->street, &vertices, &indices, d->error,
                                         sizeof d->error) &&
-                    (place_heights_make(&d->street, vertices, indices, &d->heights) ||
+                    (host_heights_of_mesh(&d->street, vertices, indices, PLACE_CELL_M, &d->heights) ||
                      host_fail(d->error, sizeof d->error, "no memory for the heights of the street")) &&
                     find_drips(d, vertices, indices) && stage_add(&d->stage, &d->street, d->error, sizeof d->error);
     free(vertices);
@@ -72,8 +128,7 @@ bool load_world(drive *d)
     material = (host_material){.name = "wall", .base_color = {0.16f, 0.14f, 0.13f, 1}, .roughness = 0.9f};
     if (b->count && !add_boxes(d, b, &material, &d->blocks))
         return false;
-    if (!host_mesh_load(&d->device, DRIVE_ASSETS "/scenes/car.glb", NULL, &d->body, error, error_size) ||
-        !stage_add(&d->stage, &d->body, error, error_size))
+    if (!load_car(d) || !stage_add(&d->stage, &d->body, error, error_size))
         return false;
     if (d->body.primitive_count > MAX_PARTS)
         return host_fail(error, error_size, "car.glb has more than %d parts", MAX_PARTS);
@@ -134,5 +189,5 @@ void unload_world(drive *d)
     if (d->environment.sky.image)
         host_environment_destroy(&d->device, &d->environment);
     track_free(&d->track);
-    place_heights_free(&d->heights);
+    host_heights_free(&d->heights);
 }

@@ -3,6 +3,7 @@
 #ifndef VIRGA_EFFECTS_SHOT_STATE_H
 #define VIRGA_EFFECTS_SHOT_STATE_H
 
+#include "heights.h"
 #include "host.h"
 #include "scene_file.h"
 
@@ -61,6 +62,7 @@ typedef struct shot {
     virga_occluder *occluders; /* room for SHOT_MAX_OCCLUDERS; effects may add theirs when they open */
     uint32_t occluder_count;
     struct host_drip_edges *drip_edges; /* while meshes are loaded; NULL: nothing drips */
+    host_heights roofs;                 /* of what keeps rain off vehicles that drip; all zero: none */
     struct tool_drips *drips;           /* all places that drip; NULL: nothing drips */
     host_camera_key *camera_keys;
     uint32_t camera_key_count;

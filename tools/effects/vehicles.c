@@ -173,6 +173,7 @@ typedef struct vehicle {
     host_buffer sheltering; /* vertices at rest, for rain */
     uint32_t first_occluder, occluder_count;
     uint32_t first_drip, drip_count; /* places that drip */
+    double top_m;                    /* of the body at rest, over its origin */
     walk_poses poses;
 } vehicle;
 
@@ -254,11 +255,25 @@ static double ground_of(const scene_vehicle *from)
     return ground_m;
 }
 
+static double top_of(const part *body)
+{
+    double top_m = -INFINITY;
+    for (uint32_t i = 0; i < body->mesh.primitive_count; i++) {
+        const host_primitive *primitive = &body->mesh.primitives[i];
+        for (uint32_t k = 0; k < primitive->index_count; k++) {
+            const host_vertex *vertex = &body->vertices[body->indices[primitive->first_index + k]];
+            top_m = fmax(top_m, (double)vertex->position[1]);
+        }
+    }
+    return top_m;
+}
+
 /* As it is at rest, in the first pose of one that walks. */
 static bool add_drips(shot *s, const scene_vehicle *from, vehicle *v, char *error, size_t error_size)
 {
     v->drip_count = tool_drips_add_model(s, &v->body.mesh, v->body.vertices, v->body.indices, ground_of(from),
                                          &v->first_drip, error, error_size);
+    v->top_m = top_of(&v->body);
     return v->drip_count != UINT32_MAX;
 }
 
@@ -469,7 +484,7 @@ static void move_drips(shot *s, const scene_vehicle *from, const vehicle *v, dou
     float now[12], before[12];
     transform_at(from, time_s, now);
     transform_at(from, time_s - STEP_S, before);
-    tool_drips_move(s, v->first_drip, v->drip_count, now, before, STEP_S);
+    tool_drips_move(s, v->first_drip, v->drip_count, now, before, STEP_S, (double)now[7] + v->top_m);
 }
 
 static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,

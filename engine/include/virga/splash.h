@@ -250,6 +250,10 @@ typedef struct virga_drip_site {
      * In a tick four leave a place at most, and what waits is counted as hanging. Default 0. */
     float drops;
 
+    /* [0; 1] share of the rain that does not reach its surface, as something above keeps it off: a car below a bridge.
+     * What is on the surface still runs off. Default 0. */
+    float shelter;
+
     /* true: the place itself moves with velocity_m_s, as the edge of a car or an umbrella, and position_m is where it
      * is at the end of the frame. Its drops have its velocity, which may be -100 to 100 then, and fall from where it
      * was when they left it. false: it stands. Default false. */

@@ -4,7 +4,9 @@
 #include "drip_edges.h"
 #include "drip_model.h"
 #include "effect.h"
+#include "heights.h"
 #include "splash.h"
+#include "vehicles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +14,9 @@
 
 #define AROUND_M 16.0 /* of the camera's path: a drop of 4 mm is a tenth of a pixel wide there */
 #define MOST_M   48.0
+
+#define ROOF_CELL_M 0.25 /* of the heights of what keeps rain off that which moves */
+#define ROOFS_M     8.0  /* they reach so far beside its ways: rain slants, and a bus is long */
 
 typedef struct tool_drips {
     virga_splash *splash;     /* NULL: none */
@@ -26,6 +31,25 @@ static bool drips(const shot *s)
     const scene_splash *splash = scene_splash_of(s->scene);
     return splash->on && splash->drips.on;
 }
+
+/* ---- what keeps rain off that which moves */
+
+/* All ways of vehicles, and what is beside them. False: no memory. */
+static bool begin_roofs(shot *s)
+{
+    const scene_vehicles *from = scene_vehicles_of(s->scene);
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < from->vehicle_count; i++)
+        for (uint32_t k = 0; k < from->vehicles[i].key_count; k++)
+            for (int axis = 0; axis < 2; axis++) {
+                const double at = from->vehicles[i].keys[k].position_m[2 * axis];
+                low[axis] = fmin(low[axis], at - ROOFS_M);
+                high[axis] = fmax(high[axis], at + ROOFS_M);
+            }
+    return host_heights_begin(low, high, ROOF_CELL_M, &s->roofs);
+}
+
+/* ---- what stands */
 
 /* A square around the path of the camera. */
 static host_drip_edges *begin(const shot *s)
@@ -50,6 +74,11 @@ bool tool_drips_read_mesh(shot *s, const host_mesh *mesh, const host_vertex *ver
         s->drip_edges = begin(s);
     if (!s->drip_edges)
         return host_fail(error, error_size, "no memory for the heights of edges that drip");
+    const bool moving = scene_splash_of(s->scene)->drips.moving && scene_vehicles_of(s->scene)->vehicle_count;
+    if (moving && !s->roofs.high_m && !begin_roofs(s))
+        return host_fail(error, error_size, "no memory for the heights of roofs");
+    if (moving)
+        host_heights_add(&s->roofs, mesh, vertices, indices);
     host_drip_edges_add(s->drip_edges, mesh, vertices, indices);
     return true;
 }
@@ -134,6 +163,7 @@ bool tool_drips_open(shot *s, virga_splash *splash, char *error, size_t error_si
 
 void tool_drips_close(shot *s)
 {
+    host_heights_free(&s->roofs);
     if (!s->drips)
         return;
     free(s->drips->sites);
@@ -167,12 +197,15 @@ uint32_t tool_drips_add_model(shot *s, const host_mesh *mesh, const host_vertex 
 }
 
 void tool_drips_move(shot *s, uint32_t first, uint32_t count, const float transform[12], const float before[12],
-                     double apart_s)
+                     double apart_s, double top_m)
 {
     tool_drips *d = s->drips;
+    virga_walls walls;
     if (!count)
         return;
     host_drip_model_move(d->at_rest + first, count, transform, before, apart_s, d->sites + first);
+    virga_rain_walls_get(virga_scene_rain(s->simulation), &walls);
+    host_heights_shade(&s->roofs, top_m, walls.slant, d->sites + first, count);
     d->moved = true;
 }
 

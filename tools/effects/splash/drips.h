@@ -17,9 +17,10 @@ void tool_drips_close(shot *s);
 uint32_t tool_drips_add_model(shot *s, const host_mesh *mesh, const host_vertex *vertices, const uint32_t *indices,
                               double ground_m, uint32_t *first, char *error, size_t error_size);
 
-/* Moves `count` places from `first` on; the transforms are those of host_drip_model_move. */
+/* Moves `count` places from `first` on; the transforms are those of host_drip_model_move. What stands higher than
+ * `top_m` keeps rain off them. */
 void tool_drips_move(shot *s, uint32_t first, uint32_t count, const float transform[12], const float before[12],
-                     double apart_s);
+                     double apart_s, double top_m);
 
 /* Gives the places to the splashes, where any has moved. Before each step. */
 bool tool_drips_send(shot *s, char *error, size_t error_size);
