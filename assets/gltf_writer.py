@@ -212,9 +212,10 @@ class _Glb:
         used = sorted(scene.images)
         images = [{"name": n, "mimeType": "image/png", "bufferView": self._view(scene.images[n])} for n in used]
         roots = [self._node(names, *p) for p in scene.placements]
+        thin = ["KHR_materials_diffuse_transmission"] if any("passes" in m for m in scene.materials) else []
         self.document = {
             "asset": {"version": "2.0", "generator": scene.generator}, "scene": 0,
-            "extensionsUsed": ["KHR_materials_emissive_strength"],
+            "extensionsUsed": ["KHR_materials_emissive_strength"] + thin,
             "scenes": [{"name": scene.name, "nodes": roots}], "nodes": self.nodes, "meshes": self.meshes,
             "materials": [self._material(m, used) for m in scene.materials],
             "textures": [{"source": i, "sampler": 0} for i in range(len(used))], "images": images,
@@ -297,6 +298,9 @@ class _Glb:
             out["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": m.get("strength", 1)}}
             if "image" in m:
                 out["emissiveTexture"] = {"index": used.index(m["image"])}
+        if "passes" in m:
+            out.setdefault("extensions", {})["KHR_materials_diffuse_transmission"] = {
+                "diffuseTransmissionFactor": m["passes"]}
         if "alpha" in m:
             out["alphaMode"] = "BLEND"
         if m.get("two_sided"):

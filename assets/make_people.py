@@ -23,7 +23,7 @@ MATERIALS = [
     {"name": "cloth_scarf", "colour": (0.30, 0.16, 0.05), "rough": 0.95},
     {"name": "cloth_hat", "colour": (0.09, 0.035, 0.03), "rough": 0.95},
     {"name": "cloth_trousers", "colour": (0.030, 0.032, 0.038), "rough": 0.85},
-    {"name": "cloth_umbrella", "colour": (0.26, 0.016, 0.018), "rough": 0.42, "two_sided": True},
+    {"name": "cloth_umbrella", "colour": (0.38, 0.023, 0.026), "rough": 0.42, "two_sided": True, "passes": 0.35},
     {"name": "plastic_raincoat", "colour": (0.44, 0.27, 0.03), "rough": 0.28},
     {"name": "rubber_boots", "colour": (0.022, 0.024, 0.022), "rough": 0.30},
     {"name": "rubber_gloves", "colour": (0.028, 0.020, 0.016), "rough": 0.6},

@@ -64,7 +64,7 @@ MATERIALS = [
     {"name": "wood_brown", "image": "wood", "colour": (0.25, 0.13, 0.065), "rough": 0.6},
     {"name": "wood_pale", "image": "wood", "colour": (0.55, 0.40, 0.24), "rough": 0.8},
     {"name": "wood_bark", "image": "earth", "colour": (1.0, 1.0, 0.95), "rough": 0.95},
-    {"name": "fabric_awning", "image": "stripes", "rough": 0.85, "two_sided": True},
+    {"name": "fabric_awning", "image": "stripes", "rough": 0.85, "two_sided": True, "passes": 0.2},
     {"name": "leaves", "image": "foliage", "rough": 0.55, "two_sided": True},
     {"name": "grass", "image": "foliage", "colour": (0.9, 1.0, 0.8), "rough": 0.7, "two_sided": True},
     {"name": "soil", "image": "earth", "rough": 0.98},

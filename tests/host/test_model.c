@@ -186,6 +186,31 @@ static void lamps_have_their_strength(void **state)
     }
 }
 
+#define CLOTH(name, factor)                                                           \
+    "{\"name\":\"" name "\",\"extensions\":{\"KHR_materials_diffuse_transmission\":{" \
+    "\"diffuseTransmissionFactor\":" factor "}}}"
+
+/* KHR_materials_diffuse_transmission: what is no share is 0 or the nearer end. */
+static void cloth_has_the_share_that_comes_through(void **state)
+{
+    fixture *f = *state;
+    static const char *const materials[2] = {CLOTH("a", "0.35") ",{\"name\":\"b\"}," CLOTH("c", "\"much\""),
+                                             CLOTH("a", "-1") "," CLOTH("b", "1.5") "," CLOTH("c", "1")};
+    static const double expected[2][3] = {{0.35, 0, 0}, {0, 1, 1}};
+    const int order[3] = {0, 1, 2};
+    for (int k = 0; k < 2; k++) {
+        host_mesh mesh;
+        if (!host_mesh_load(&f->device, write_lamps(materials[k], order, k == 1), NULL, &mesh, f->error,
+                            sizeof f->error))
+            fail_msg("%s", f->error);
+        for (int i = 0; i < 3; i++) {
+            const host_material *material = &mesh.materials[mesh.primitives[i].material];
+            assert_float_equal((double)material->passes, expected[k][material->name[0] - 'a'], 1e-6);
+        }
+        host_mesh_destroy(&f->device, &mesh);
+    }
+}
+
 static void strengths_that_make_no_sense_are_one(void **state)
 {
     fixture *f = *state;
@@ -267,6 +292,7 @@ int main(void)
         cmocka_unit_test(bad_files),
         cmocka_unit_test(plain_triangle),
         cmocka_unit_test(lamps_have_their_strength),
+        cmocka_unit_test(cloth_has_the_share_that_comes_through),
         cmocka_unit_test(strengths_that_make_no_sense_are_one),
         cmocka_unit_test(missing_picture),
         cmocka_unit_test(mips_keep_coverage),

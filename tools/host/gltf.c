@@ -94,6 +94,24 @@ float host_gltf_strength(const host_gltf *gltf, const host_device *device, const
     return strength >= 0.0f ? strength : 1.0f;
 }
 
+float host_gltf_transmission(const host_gltf *gltf, const char *name)
+{
+    size_t i;
+    const json_t *material;
+    if (!gltf)
+        return 0.0f;
+    json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
+    {
+        const char *written = json_string_value(json_object_get(material, "name"));
+        const json_t *extension =
+            json_object_get(json_object_get(material, "extensions"), "KHR_materials_diffuse_transmission");
+        const double value = json_number_value(json_object_get(extension, "diffuseTransmissionFactor"));
+        if (strcmp(written ? written : "", name) == 0)
+            return isfinite(value) ? (float)fmin(fmax(value, 0), 1) : 0.0f;
+    }
+    return 0.0f;
+}
+
 void host_gltf_free(host_gltf *gltf)
 {
     if (!gltf)

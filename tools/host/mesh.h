@@ -24,6 +24,7 @@ typedef struct host_material {
     float base_color[4]; /* linear, times the texture's */
     float emissive[3];   /* radiance, times the texture's */
     float roughness, metallic;
+    float passes; /* [0; 1] part of its diffuse light that comes out of the other side: of cloth, and of leaves */
     float cutoff; /* (mask) */
     host_alpha alpha;
     bool two_sided;

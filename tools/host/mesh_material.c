@@ -186,6 +186,7 @@ static void read_material(host_mesh_build *build, const struct aiMaterial *in, h
     snprintf(out->name, sizeof out->name, "%.*s", (int)sizeof out->name - 1, name.data);
     read_surface(in, out);
     read_emission(build, in, out);
+    out->passes = host_gltf_transmission(build->gltf, out->name);
 
     out->base_texture = find_texture(build, in, aiTextureType_BASE_COLOR);
     if (out->base_texture < 0)

@@ -69,6 +69,7 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
     out->traits[3] = bits;
     out->lamps[0] = (float)lamps;
     out->lamps[1] = (float)host_wall_material(primitive, material);
+    out->lamps[2] = material->alpha == HOST_ALPHA_GLASS ? 0 : material->passes;
 }
 
 /* Whether a pipeline draws a material. */
@@ -128,6 +129,10 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
                            host_pipeline kind)
 {
     const uint32_t first = primitive->first_index, count = primitive->index_count;
+    if (kind == HOST_PIPELINE_SHADE && material->passes > 0 && !is_mirror(d)) {
+        draw_indices(d, HOST_PIPELINE_CLOTH, material->two_sided, first, count);
+        return;
+    }
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
     if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */

@@ -77,7 +77,8 @@ struct host_surface_gpu { /* push constants */
     /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass; from 8 on, for ground,
      * 1 + its material */
     HOST_VEC4 traits;
-    HOST_VEC4 lamps; /* x: bits of the lights that may reach it; y: material as a wall, -1: it stays dry */
+    HOST_VEC4 lamps; /* x: bits of the lights that may reach it; y: material as a wall, -1: it stays dry;
+                         * z: part of its diffuse light that comes through */
 };
 
 /* ---- skylight: how much of the sky is visible around the camera ---------------------------------------- */

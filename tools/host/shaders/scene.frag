@@ -1,8 +1,16 @@
 #version 460
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
 // mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOTAGE it is what
-// water changes of ground that is on a picture: its base texture is a mask over the picture.
+// water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry in
+// that sense, light of the other side comes through.
 #extension GL_GOOGLE_include_directive : require
+#ifdef CLOTH
+#define DRY
+#endif
+#if defined(CLOTH) || defined(MIRROR)
+#define THIN
+#include "cloth.glsl"
+#endif
 #include "frame_gpu.h"
 
 layout(set = 0, binding = 0, std140) uniform Frame { host_frame_gpu frame; };
@@ -144,9 +152,9 @@ vec3 lobe_of(Lobe lobe, float n_l, vec3 v, vec3 l)
     return specular_lobe(lobe.f0, lobe.roughness, n_l, lobe.n_v, lobe.n, v, l);
 }
 
-// Light of lamps that comes back from a surface and from the water over it, whose shadows are the same. The loop ends
+// Light of lamps that comes back from a surface, or through it, and from the water over it, whose shadows are the same. The loop ends
 // at its end: software Vulkan runs a body once more for a condition at its beginning.
-vec3 lit(vec3 albedo, Lobe ground, Lobe water, vec3 v, out vec3 on_water)
+vec3 lit(vec3 albedo, vec3 through, Lobe ground, Lobe water, vec3 v, out vec3 on_water)
 {
     vec3 sum = vec3(0.0);
     int lamps = int(surface.lamps.x);
@@ -174,6 +182,9 @@ vec3 lit(vec3 albedo, Lobe ground, Lobe water, vec3 v, out vec3 on_water)
 #endif
         if (n_l > 0.0)
             sum += light * (albedo / PI + lobe_of(ground, n_l, v, l)) * n_l;
+#ifdef THIN
+        sum += light * through * (max(-dot(ground.n, l), 0.0) / PI);
+#endif
     } while (lamps != 0);
     return sum;
 }
@@ -241,7 +252,7 @@ void main()
     const vec4 moments = sky_moments(n);
     const Lobe lobe = lobe_of_water(water, v);
     vec3 lamps;
-    lit(vec3(0.0), lobe, lobe, v, lamps);
+    lit(vec3(0.0), vec3(0.0), lobe, lobe, v, lamps);
     const vec3 mirrored = under_water(vec3(0.0), v, moments, water, lamps);
     const vec3 seen = under_water(vec3(1.0), v, moments, water, lamps) - mirrored;
     const float through = albedo.g / dry * mix(1.0, seen.g, water.puddle);
@@ -291,7 +302,15 @@ void main()
     vec2 wetness = vec2(0.0);
 #endif
 #ifdef WALLS
-    Wall wall = wall_at(in_relative, n, int(surface.lamps.y), bits >= HOST_GROUND);
+    vec3 outer = n;
+#ifdef THIN
+    const bool thin = surface.lamps.z > 0.0;
+    outer = thin && n.y < 0.0 ? -n : n; // rain soaks through to the lower side of cloth
+#endif
+    Wall wall = wall_at(in_relative, outer, int(surface.lamps.y), bits >= HOST_GROUND);
+#ifdef THIN
+    wall.film *= thin && n.y < 0.0 ? 0.0 : 1.0;
+#endif
     wet_wall(wall, metallic, albedo, roughness, f0);
 #endif
     vec4 moments = sky_moments(n);
@@ -306,7 +325,19 @@ void main()
     f0 *= 1.0 - water.puddle;
     roughness = mix(roughness, 1.0, water.puddle);
 #endif
+    vec3 through = vec3(0.0);
+#ifdef THIN
+    if (thin) {
+        const Cloth cloth = cloth_of(base.rgb, surface.lamps.z, wall.damp);
+        albedo = cloth.back;
+        through = cloth.through;
+    }
+#endif
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
+#ifdef THIN
+    if (thin)
+        diffuse += through * diffuse_light(-n) * sky_share(sky_moments(-n), -n);
+#endif
     const Lobe ground = Lobe(n, n_v, f0, roughness);
     vec3 on_water;
 #ifdef WET
@@ -314,7 +345,7 @@ void main()
 #else
     const Lobe over = ground;
 #endif
-    vec3 color = diffuse + reflected + lit(albedo, ground, over, v, on_water) + emitted_light(bits);
+    vec3 color = diffuse + reflected + lit(albedo, through, ground, over, v, on_water) + emitted_light(bits);
 #ifdef WET
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);

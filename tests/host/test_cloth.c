@@ -1,0 +1,226 @@
+/* test_cloth.c - light through thin cloth, dry and wet, against two streams of light in double precision. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "plate_fixture.h"
+
+#include <virga/virga.h>
+
+enum { SIDE = 64 };
+
+#define PASSES 0.35
+#define FAR_M  3.0 /* of the lamp */
+#define WATTS  40.0
+
+static const double base[3] = {0.6, 0.3, 0.05};
+
+static const host_camera_key key = {.position_m = {0, 2, 8}, .look_at_m = {0, 2, 0}};
+static const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 45, .near_m = 0.1, .far_m = 100};
+
+typedef struct scene {
+    fixture base;
+    host_target target;
+    host_renderer *renderer;
+    host_environment environment;
+    host_mesh cloth; /* upright, before the camera */
+    host_accumulator sums;
+    host_drawn picture;
+} scene;
+
+static bool add_cloth(scene *s)
+{
+    static const float corners[4][3] = {{-4, 0, 0}, {4, 0, 0}, {4, 4, 0}, {-4, 4, 0}};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_material material = {.roughness = 1,
+                              .passes = (float)PASSES,
+                              .base_color = {0, 0, 0, 1},
+                              .base_texture = -1,
+                              .emissive_texture = -1,
+                              .two_sided = true};
+    host_vertex v[4] = {{.uv = {0}}};
+    for (int c = 0; c < 3; c++)
+        material.base_color[c] = (float)base[c];
+    for (int i = 0; i < 4; i++) {
+        memcpy(v[i].position, corners[i], sizeof v[i].position);
+        v[i].normal[2] = 1;
+    }
+    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, &s->cloth, s->base.error,
+                            sizeof s->base.error) &&
+           host_renderer_add(s->renderer, &s->cloth, s->base.error, sizeof s->base.error);
+}
+
+static bool build(scene *s)
+{
+    host_device *device = &s->base.device;
+    char *error = s->base.error;
+    const size_t size = sizeof s->base.error;
+    const host_environment_def black = {.intensity = 1};
+    return host_target_create(device, SIDE, SIDE, &s->target, error, size) &&
+           host_renderer_create(device, &s->renderer, error, size) && add_cloth(s) &&
+           host_environment_create(device, &black, &s->environment, error, size) &&
+           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
+           host_accumulator_create(device, SIDE, SIDE, &s->sums, error, size) &&
+           host_drawn_create(SIDE, SIDE, &s->picture, error, size);
+}
+
+static int set_up(void **state)
+{
+    scene *s = calloc(1, sizeof *s);
+    *state = s;
+    if (!fixture_begin(&s->base)) {
+        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
+        exit(77);
+    }
+    if (build(s))
+        return 0;
+    fprintf(stderr, "%s\n", s->base.error);
+    return -1;
+}
+
+static int tear_down(void **state)
+{
+    scene *s = *state;
+    host_accumulator_destroy(&s->sums);
+    host_drawn_destroy(&s->picture);
+    host_renderer_destroy(&s->renderer);
+    host_environment_destroy(&s->base.device, &s->environment);
+    host_mesh_destroy(&s->base.device, &s->cloth);
+    host_target_destroy(&s->base.device, &s->target);
+    const uint32_t wrong = fixture_end(&s->base);
+    if (wrong)
+        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
+    free(s);
+    return wrong ? -1 : 0;
+}
+
+/* What is seen in the middle, with a lamp straight before the cloth or straight behind it. */
+static void look(scene *s, double lamp_z, bool wet, double seen[3])
+{
+    host_camera camera;
+    VkCommandBuffer cmd;
+    host_device *device = &s->base.device;
+    char *error = s->base.error;
+    const size_t size = sizeof s->base.error;
+    virga_walls walls = {.spread = 0};
+    const virga_light lamp = {.position_m = {0, 2, lamp_z}, .intensity = {(float)WATTS, (float)WATTS, (float)WATTS}};
+    for (int row = 0; row < VIRGA_WALL_ROWS; row++)
+        for (int i = 0; i < VIRGA_WALL_MATERIALS; i++)
+            walls.rows[row][i] = (virga_wall_gpu){.wet = 1};
+    host_renderer_set_lights(s->renderer, &lamp, 1);
+    host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
+    host_accumulator_reset(&s->sums);
+    assert_true(host_renderer_set_walls(s->renderer, wet ? &walls : NULL, error, size));
+    assert_true(host_begin_frame(device, &cmd, error, size));
+    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
+    host_target_begin_layer(&s->target, cmd);
+    host_target_end_layer(&s->target, cmd);
+    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));
+    host_accumulator_copy_out(&s->sums, cmd, &s->target);
+    assert_true(host_submit(device, error, size) && host_wait(device, error, size));
+    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    for (int c = 0; c < 3; c++)
+        seen[c] = (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2) + c];
+}
+
+/* Two streams through a layer of unit thickness, as they lose and give to each other (Kubelka and Munk): by Runge and
+ * Kutta from the far side, where nothing comes in, to the near one. Not the closed form of the shader. */
+static void two_streams(double scatters, double absorbs, double *back, double *through)
+{
+    const int steps = 4000;
+    const double h = 1.0 / steps, sum = scatters + absorbs;
+    double i = 1, j = 0; /* with the light, against it; i is what comes out of the far side */
+    for (int n = 0; n < steps; n++) {
+        double ki[4], kj[4];
+        for (int k = 0; k < 4; k++) {
+            const double part = k == 0   ? 0
+                                : k == 3 ? h
+                                         : h / 2,
+                         a = k ? i + part * ki[k - 1] : i, b = k ? j + part * kj[k - 1] : j;
+            ki[k] = sum * a - scatters * b;
+            kj[k] = scatters * a - sum * b;
+        }
+        i += h / 6 * (ki[0] + 2 * ki[1] + 2 * ki[2] + ki[3]);
+        j += h / 6 * (kj[0] + 2 * kj[1] + 2 * kj[2] + kj[3]);
+    }
+    *back = j / i;
+    *through = 1 / i;
+}
+
+/* The layer that has these two shares dry, by bisection: of S so that R fits, within one of K so that T does. */
+static void find_layer(double back, double through, double *scatters, double *absorbs)
+{
+    double low_k = 0, high_k = 20;
+    for (int outer = 0; outer < 40; outer++) {
+        double low_s = 0, high_s = 20, r, t;
+        *absorbs = 0.5 * (low_k + high_k);
+        for (int inner = 0; inner < 40; inner++) {
+            *scatters = 0.5 * (low_s + high_s);
+            two_streams(*scatters, *absorbs, &r, &t);
+            if (r < back)
+                low_s = *scatters;
+            else
+                high_s = *scatters;
+        }
+        if (t > through)
+            low_k = *absorbs;
+        else
+            high_k = *absorbs;
+    }
+}
+
+static const double arrives = WATTS / (FAR_M * FAR_M);
+
+static void a_lamp_behind_dry_cloth_shines_through(void **state)
+{
+    double seen[3];
+    look(*state, -FAR_M, false, seen);
+    for (int c = 0; c < 3; c++) {
+        const double expected = PASSES * base[c] * arrives / M_PI;
+        printf("through: %.5f, expected %.5f\n", seen[c], expected);
+        assert_true(fabs(seen[c] / expected - 1) < 5e-3);
+    }
+}
+
+/* What shines on a rough surface with f0 0.04 besides: D = 1 / pi, visibility 1 / 4 at a right angle. */
+static void the_rest_comes_back(void **state)
+{
+    double seen[3];
+    look(*state, FAR_M, false, seen);
+    for (int c = 0; c < 3; c++) {
+        const double expected = ((1 - PASSES) * base[c] + 0.01) * arrives / M_PI;
+        printf("back: %.5f, expected %.5f\n", seen[c], expected);
+        assert_true(fabs(seen[c] / expected - 1) < 5e-3);
+    }
+}
+
+static void wet_cloth_is_a_layer_that_scatters_half_as_much(void **state)
+{
+    double seen[3];
+    look(*state, -FAR_M, true, seen);
+    for (int c = 0; c < 3; c++) {
+        double scatters, absorbs, back, through;
+        find_layer((1 - PASSES) * base[c], PASSES * base[c], &scatters, &absorbs);
+        two_streams(0.5 * scatters, absorbs, &back, &through);
+        const double expected = through * arrives / M_PI;
+        printf("S %.3f K %.3f: through wet %.5f, expected %.5f; dry %.5f\n", scatters, absorbs, seen[c], expected,
+               PASSES * base[c] * arrives / M_PI);
+        assert_true(fabs(seen[c] / expected - 1) < 1e-2);
+        assert_true(through > PASSES * base[c] && back < (1 - PASSES) * base[c]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lamp_behind_dry_cloth_shines_through),
+        cmocka_unit_test(the_rest_comes_back),
+        cmocka_unit_test(wet_cloth_is_a_layer_that_scatters_half_as_much),
+    };
+    return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
+}
