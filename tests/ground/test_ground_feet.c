@@ -56,8 +56,8 @@ static double tread(double deep_mm, double down_m_s, double heading)
     return moved;
 }
 
-/* In double precision, as contact_plan.glsl derives it: a plate that sinks into a gap larger by 4 mm, blocks of 10 mm at
- * its edge on a half of it, and the part of the colliding streams that is above a hydraulic jump; 2 mm stay in the
+/* In double precision, as contact_plan.glsl derives it: a plate that sinks into a gap larger by 4 mm, blocks of 10 mm
+ * at its edge on a half of it, and the part of the colliding streams that is above a hydraulic jump; 2 mm stay in the
  * profile, but for those below the outer halves of the outermost blocks, if their water splashes (K above 57.7). */
 #define LENGTH 0.28
 #define BLOCK  0.01

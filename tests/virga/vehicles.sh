@@ -87,7 +87,8 @@ print("rain on it by frame (ul):", lines)
 if lines["bridge"][-1] != 0:
     sys.exit("no rain comes below the bridge")
 # 30 mm/h on 1 m^2 is 417 ul in a frame. It drives 0.6 m a frame, from 1.5 m on: in frame 3 its front comes out.
-if lines["half"][1] != 0 or not 0 < lines["half"][2] < 300 or not abs(lines["half"][5] - lines["half"][4] - 417) < 0.06 * 417:
+half = lines["half"]
+if half[1] != 0 or not 0 < half[2] < 300 or not abs(half[5] - half[4] - 417) < 0.06 * 417:
     sys.exit("rain begins where the bridge ends")
 END
 

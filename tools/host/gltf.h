@@ -1,5 +1,5 @@
-/* gltf.h - what Assimp does not read in a glTF file: the strength of emitted light, KHR_materials_emissive_strength, and
- * light that comes through thin cloth, KHR_materials_diffuse_transmission. */
+/* gltf.h - what Assimp does not read in a glTF file: the strength of emitted light, KHR_materials_emissive_strength,
+ * and light that comes through thin cloth, KHR_materials_diffuse_transmission. */
 #ifndef VIRGA_HOST_GLTF_H
 #define VIRGA_HOST_GLTF_H
 
@@ -16,8 +16,8 @@ host_gltf *host_gltf_read(const host_device *device, const char *path);
  * a file (NULL) it is 1. */
 float host_gltf_strength(const host_gltf *gltf, const host_device *device, const char *name, const float factor[3]);
 
-/* diffuseTransmissionFactor, [0; 1], of the first material with this name; 0 if it has none or without a file. Its color
- * is that of the base: color and textures of the extension are not read. */
+/* diffuseTransmissionFactor, [0; 1], of the first material with this name; 0 if it has none or without a file. Its
+ * color is that of the base: color and textures of the extension are not read. */
 float host_gltf_transmission(const host_gltf *gltf, const char *name);
 
 void host_gltf_free(host_gltf *gltf);

@@ -1,4 +1,4 @@
-/* heights.h - a grid of the highest points of what stands: for what keeps light or rain off a place, in microseconds. */
+/* heights.h - a grid of the highest points of what stands: for what keeps light or rain off a place. */
 #ifndef VIRGA_HOST_HEIGHTS_H
 #define VIRGA_HOST_HEIGHTS_H
 

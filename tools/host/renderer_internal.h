@@ -21,8 +21,8 @@ typedef enum host_pipeline {
     HOST_PIPELINE_GLASS, /* blended over it */
     HOST_PIPELINE_DRY,   /* instead of the last two where no water can lie; not in the mirror, where nothing is wet */
     HOST_PIPELINE_DRY_GLASS,
-    HOST_PIPELINE_CLOTH, /* instead of HOST_PIPELINE_SHADE for all of what lets light through; not in the mirror */
-    HOST_PIPELINE_FOOTAGE,        /* what water changes of ground on a picture */
+    HOST_PIPELINE_CLOTH,   /* instead of HOST_PIPELINE_SHADE for all of what lets light through; not in the mirror */
+    HOST_PIPELINE_FOOTAGE, /* what water changes of ground on a picture */
     HOST_PIPELINE_FOOTAGE_MIRROR, /* instead of the sky in the mirror, where a picture replaces the plate */
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,

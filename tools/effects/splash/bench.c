@@ -214,7 +214,7 @@ static bool run_bench(bench *b, const options *parsed)
     if (!read_choice(parsed, &choice) || !open_untimed(b, &untimed))
         return false;
     b->context = untimed;
-    const bool good = measure_tables(b, &choice);
+    const bool good = options_value(parsed, "--drips") ? splash_bench_drips(b) : measure_tables(b, &choice);
     b->context = timed;
     virga_context_destroy(&untimed);
     return good;
@@ -223,6 +223,7 @@ static bool run_bench(bench *b, const options *parsed)
 static const option_row option_rows[] = {
     {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
     {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
+    {"--drips", 0, NULL, "splash: measure 250 to 25000 edges that drip only", false},
     {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
 };
 

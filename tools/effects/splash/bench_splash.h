@@ -117,6 +117,10 @@ bool splash_bench_step(run *r, uint32_t spawns, double *ms);
 bool splash_bench_count_air(run *r, air_counts *air);
 bool splash_bench_measure_life(run *r, splash_life *life);
 
+/* ---- bench_drips.c: edges that drip */
+
+bool splash_bench_drips(bench *b);
+
 /* ---- bench_report.c: prints results, compared with the paper and the machine's limits */
 
 double splash_bench_frame_ms(const cell *c);

@@ -1,8 +1,8 @@
 #version 460
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
 // mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOTAGE it is what
-// water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry in
-// that sense, light of the other side comes through.
+// water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry
+// in that sense, light of the other side comes through.
 #extension GL_GOOGLE_include_directive : require
 #ifdef CLOTH
 #define DRY
@@ -152,8 +152,8 @@ vec3 lobe_of(Lobe lobe, float n_l, vec3 v, vec3 l)
     return specular_lobe(lobe.f0, lobe.roughness, n_l, lobe.n_v, lobe.n, v, l);
 }
 
-// Light of lamps that comes back from a surface, or through it, and from the water over it, whose shadows are the same. The loop ends
-// at its end: software Vulkan runs a body once more for a condition at its beginning.
+// Light of lamps that comes back from a surface, or through it, and from the water over it, whose shadows are the same.
+// The loop ends at its end: software Vulkan runs a body once more for a condition at its beginning.
 vec3 lit(vec3 albedo, vec3 through, Lobe ground, Lobe water, vec3 v, out vec3 on_water)
 {
     vec3 sum = vec3(0.0);
@@ -280,6 +280,32 @@ vec3 seen_normal(vec3 v)
     return dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
 }
 
+Wall wall_of(vec3 n, int bits)
+{
+#ifdef THIN
+    const bool below = surface.lamps.z > 0.0 && n.y < 0.0; // rain soaks through to the lower side of cloth
+    Wall wall = wall_at(in_relative, below ? -n : n, int(surface.lamps.y), bits >= HOST_GROUND);
+    wall.film *= below ? 0.0 : 1.0;
+    return wall;
+#else
+    return wall_at(in_relative, n, int(surface.lamps.y), bits >= HOST_GROUND);
+#endif
+}
+
+#ifdef THIN
+// What of the environment's light on the other side comes through; the shares of cloth, where it is one.
+vec3 through_cloth(vec3 base, float damp, vec3 n, inout vec3 albedo, out vec3 through)
+{
+    through = vec3(0.0);
+    if (surface.lamps.z <= 0.0)
+        return vec3(0.0);
+    const Cloth cloth = cloth_of(base, surface.lamps.z, damp);
+    albedo = cloth.back;
+    through = cloth.through;
+    return through * diffuse_light(-n) * sky_share(sky_moments(-n), -n);
+}
+#endif
+
 void main()
 {
     int bits = int(surface.traits.w);
@@ -302,15 +328,7 @@ void main()
     vec2 wetness = vec2(0.0);
 #endif
 #ifdef WALLS
-    vec3 outer = n;
-#ifdef THIN
-    const bool thin = surface.lamps.z > 0.0;
-    outer = thin && n.y < 0.0 ? -n : n; // rain soaks through to the lower side of cloth
-#endif
-    Wall wall = wall_at(in_relative, outer, int(surface.lamps.y), bits >= HOST_GROUND);
-#ifdef THIN
-    wall.film *= thin && n.y < 0.0 ? 0.0 : 1.0;
-#endif
+    Wall wall = wall_of(n, bits);
     wet_wall(wall, metallic, albedo, roughness, f0);
 #endif
     vec4 moments = sky_moments(n);
@@ -325,19 +343,11 @@ void main()
     f0 *= 1.0 - water.puddle;
     roughness = mix(roughness, 1.0, water.puddle);
 #endif
-    vec3 through = vec3(0.0);
+    vec3 through = vec3(0.0), behind = vec3(0.0);
 #ifdef THIN
-    if (thin) {
-        const Cloth cloth = cloth_of(base.rgb, surface.lamps.z, wall.damp);
-        albedo = cloth.back;
-        through = cloth.through;
-    }
+    behind = through_cloth(base.rgb, wall.damp, n, albedo, through);
 #endif
-    vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
-#ifdef THIN
-    if (thin)
-        diffuse += through * diffuse_light(-n) * sky_share(sky_moments(-n), -n);
-#endif
+    vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n) + behind;
     const Lobe ground = Lobe(n, n_v, f0, roughness);
     vec3 on_water;
 #ifdef WET
@@ -350,11 +360,8 @@ void main()
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
 #endif
-    float alpha = 1.0;
-    if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it
-        alpha = base.a;
-        color = color * alpha + reflected * (1.0 - alpha);
-    }
+    const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
+    color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
     write(color, alpha, n, eye, wetness);
 }
 #endif
