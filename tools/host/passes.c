@@ -94,15 +94,9 @@ void host_slice_destroy(const host_device *device, const host_slice *slice)
 void host_pass_begin(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width, uint32_t height,
                      uint32_t color_count)
 {
-    host_pass_begin_at(cmd, pass, framebuffer, width, height, color_count, 1.0f);
-}
-
-void host_pass_begin_at(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width,
-                        uint32_t height, uint32_t color_count, float depth)
-{
     VkClearValue clears[HOST_PASS_COLORS + 1];
     memset(clears, 0, sizeof clears);
-    clears[color_count].depthStencil.depth = depth;
+    clears[color_count].depthStencil.depth = 1.0f;
     const VkRenderPassBeginInfo begin = {
         .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
         .renderPass = pass,

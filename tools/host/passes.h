@@ -50,8 +50,4 @@ void host_slice_destroy(const host_device *device, const host_slice *slice);
 void host_pass_begin(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width, uint32_t height,
                      uint32_t color_count);
 
-/* Clears depth to another value. */
-void host_pass_begin_at(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width,
-                        uint32_t height, uint32_t color_count, float depth);
-
 #endif

@@ -7,12 +7,14 @@
 #include "shaders/frame_gpu.h"
 
 #include "reuse_check_comp.spv.h"
+#include "reuse_choose_frag.spv.h"
 #include "reuse_find_comp.spv.h"
 #include "reuse_slope_frag.spv.h"
 #include "reuse_take_frag.spv.h"
 
 #define GROUP  8 /* blocks along a side */
 #define SLOPES VK_FORMAT_R32G32_SFLOAT
+#define PLACES VK_FORMAT_R8_UINT
 
 #define CONTRAST 0.5f /* more is shaded in each sub-frame, see host_reuse_gpu */
 #define EDGE     0.2f
@@ -29,6 +31,7 @@ enum {
     AT_SLOPES = AT_FIRST + HOST_PLATE_COLORS,
     AT_ID,
     AT_KINDS,
+    AT_PLACES,
     BINDINGS
 };
 
@@ -36,7 +39,7 @@ enum {
 #define WRITTEN VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
 #define BUFFER  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
 
-static const VkDescriptorType types[BINDINGS] = {IMAGE, BUFFER, IMAGE, IMAGE, WRITTEN, IMAGE, IMAGE,
+static const VkDescriptorType types[BINDINGS] = {IMAGE, BUFFER, IMAGE, IMAGE, WRITTEN, IMAGE, IMAGE, IMAGE,
                                                  IMAGE, IMAGE,  IMAGE, IMAGE, IMAGE,   IMAGE, IMAGE};
 
 #define SHOWN VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
@@ -87,6 +90,7 @@ static bool create_images(host_device *device, host_reuse *u, char *error, size_
           .usage = drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, /* its layout in the plate's pass */
           .name = "ids of a sub-frame"}},
         {&u->slopes, {.format = SLOPES, .extent = pixels, .usage = drawn, .name = "slopes of depth"}},
+        {&u->places, {.format = PLACES, .extent = pixels, .usage = drawn, .name = "places of pixels to take"}},
         {&u->kinds,
          {.format = VK_FORMAT_R32_UINT,
           .extent = of_blocks,
@@ -117,19 +121,37 @@ static bool create_framebuffers(host_device *device, const host_target *target, 
                                    error_size);
 }
 
-static bool create_slope_pass(host_device *device, host_reuse *u, char *error, size_t error_size)
+/* Its draw writes all of its attachments: slopes, or places and the depth to shade at, which the draws of the plate are
+ * tested against. */
+static bool create_whole_pass(host_device *device, VkFormat format, bool depth, VkRenderPass *pass, char *error,
+                              size_t error_size)
 {
-    const VkAttachmentDescription attachment = host_attachment(SLOPES, SHOWN);
-    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-                               reading = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-    const host_pass_def def = {.attachments = &attachment,
+    VkAttachmentDescription attachments[2] = {
+        host_attachment(format, SHOWN),
+        host_attachment(host_output_format(HOST_DEPTH), VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL)};
+    const VkPipelineStageFlags drawing =
+        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | (depth ? HOST_DEPTH_STAGES : 0);
+    const VkPipelineStageFlags reading = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkAccessFlags color = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, writes = depth ? HOST_DRAW_WRITES : color;
+    const host_pass_def def = {.attachments = attachments,
                                .color_count = 1,
+                               .depth = depth,
                                .before = {drawing | reading, writes, drawing, writes},
-                               .after = {drawing, writes, reading, VK_ACCESS_SHADER_READ_BIT}};
-    return host_pass_create(device, &def, &u->slope_pass, error, error_size) &&
+                               .after = {drawing, writes, reading | drawing,
+                                         VK_ACCESS_SHADER_READ_BIT | (depth ? HOST_DRAW_READS | writes : 0)}};
+    attachments[0].loadOp = attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    return host_pass_create(device, &def, pass, error, error_size);
+}
+
+static bool create_whole_passes(host_device *device, host_reuse *u, char *error, size_t error_size)
+{
+    const VkImageView choice[2] = {u->places.view, u->depth.view};
+    return create_whole_pass(device, SLOPES, false, &u->slope_pass, error, error_size) &&
+           create_whole_pass(device, PLACES, true, &u->choose_pass, error, error_size) &&
            host_framebuffer_create(device, u->slope_pass, &u->slopes.view, 1, u->width, u->height,
-                                   &u->slope_framebuffer, error, error_size);
+                                   &u->slope_framebuffer, error, error_size) &&
+           host_framebuffer_create(device, u->choose_pass, choice, 2, u->width, u->height, &u->choose_framebuffer,
+                                   error, error_size);
 }
 
 static bool create_pipelines(host_device *device, host_reuse *u, char *error, size_t error_size)
@@ -137,15 +159,26 @@ static bool create_pipelines(host_device *device, host_reuse *u, char *error, si
     VkPipelineColorBlendAttachmentState taken[HOST_PLATE_COLORS];
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
         taken[i] = host_blend_replace;
+    taken[HOST_ID].colorWriteMask = 0; /* ids are read of the first one alone */
     const VkPipelineLayout layout = u->bindings.layout;
+    const host_graphics_def choose = {
+        .vertex = host_fullscreen_vertex(),
+        .fragment = HOST_CODE(reuse_choose_frag),
+        .layout = layout,
+        .pass = u->choose_pass,
+        .depth_test = true,
+        .depth_write = true,
+        .compare = VK_COMPARE_OP_ALWAYS,
+        .colors = taken,
+        .color_count = 1,
+    };
     const host_graphics_def take = {
         .vertex = host_fullscreen_vertex(),
         .fragment = HOST_CODE(reuse_take_frag),
         .layout = layout,
-        .pass = u->pass,
+        .pass = u->shade_pass,
         .depth_test = true,
-        .depth_write = true,
-        .compare = VK_COMPARE_OP_ALWAYS,
+        .compare = VK_COMPARE_OP_GREATER,
         .colors = taken,
         .color_count = HOST_PLATE_COLORS,
     };
@@ -153,6 +186,7 @@ static bool create_pipelines(host_device *device, host_reuse *u, char *error, si
            host_compute_create(device, HOST_CODE(reuse_check_comp), layout, &u->check, error, error_size) &&
            host_fullscreen_create(device, host_fullscreen_vertex(), HOST_CODE(reuse_slope_frag), layout, u->slope_pass,
                                   &u->slope, error, error_size) &&
+           host_graphics_create(device, &choose, &u->choose, error, error_size) &&
            host_graphics_create(device, &take, &u->take, error, error_size);
 }
 
@@ -163,6 +197,7 @@ static void write_set(const host_device *device, const host_target *target, cons
     host_set_write_image(device, set, AT_KINDS_WRITTEN, VK_NULL_HANDLE, u->kinds.view, VK_IMAGE_LAYOUT_GENERAL);
     host_set_write_image(device, set, AT_KINDS, u->sampler, u->kinds.view, VK_IMAGE_LAYOUT_GENERAL);
     host_set_write_image(device, set, AT_SLOPES, u->sampler, u->slopes.view, SHOWN);
+    host_set_write_image(device, set, AT_PLACES, u->sampler, u->places.view, SHOWN);
     host_set_write_image(device, set, AT_DEPTH, u->sampler, target->images[HOST_DEPTH].view,
                          VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     host_set_write_image(device, set, AT_COLOR, u->sampler, target->images[HOST_COLOR].view, SHOWN);
@@ -183,13 +218,14 @@ bool host_reuse_create(host_device *device, const host_target *target, host_reus
     memset(u, 0, sizeof *u);
     u->width = target->width;
     u->height = target->height;
+    u->shade_pass = target->over_pass;
     const VkDeviceSize planes = (VkDeviceSize)blocks(u->width) * blocks(u->height) * 4 * sizeof(float);
     if (!host_buffer_create(device, planes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_DEVICE, "planes of depth",
                             &u->planes, error, error_size) ||
         !create_images(device, u, error, error_size) ||
         !host_target_create_kept_pass(device, &u->pass, error, error_size) ||
         !create_framebuffers(device, target, u, error, error_size) ||
-        !create_slope_pass(device, u, error, error_size) ||
+        !create_whole_passes(device, u, error, error_size) ||
         !host_sampler_create(device, HOST_SAMPLE_NEAREST, &u->sampler, error, error_size) ||
         !host_bindings_create(device, &def, &u->bindings, error, error_size) ||
         !create_pipelines(device, u, error, error_size))
@@ -203,18 +239,22 @@ void host_reuse_destroy(host_device *device, host_reuse *u)
     vkDestroyPipeline(device->device, u->find, NULL);
     vkDestroyPipeline(device->device, u->check, NULL);
     vkDestroyPipeline(device->device, u->slope, NULL);
+    vkDestroyPipeline(device->device, u->choose, NULL);
     vkDestroyPipeline(device->device, u->take, NULL);
     host_bindings_destroy(device, &u->bindings);
     vkDestroySampler(device->device, u->sampler, NULL);
     vkDestroyFramebuffer(device->device, u->depth_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, u->shade_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, u->slope_framebuffer, NULL);
+    vkDestroyFramebuffer(device->device, u->choose_framebuffer, NULL);
     vkDestroyRenderPass(device->device, u->pass, NULL);
     vkDestroyRenderPass(device->device, u->slope_pass, NULL);
+    vkDestroyRenderPass(device->device, u->choose_pass, NULL);
     host_buffer_destroy(device, &u->planes);
     host_image_destroy(device, &u->depth);
     host_image_destroy(device, &u->id);
     host_image_destroy(device, &u->slopes);
+    host_image_destroy(device, &u->places);
     host_image_destroy(device, &u->kinds);
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
         host_image_destroy(device, &u->first[i]);
@@ -312,11 +352,18 @@ void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float 
     host_memory_barrier(cmd, compute, VK_ACCESS_SHADER_WRITE_BIT, fragment, VK_ACCESS_SHADER_READ_BIT);
 }
 
-/* Depth begins at 0, which nothing is equal to: so what is kept needs no draw. */
+/* Only pixels that are taken pass the depth test of what takes them. */
 void host_reuse_begin_shade(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2])
 {
     const struct host_reuse_gpu push = {
         .width = u->width, .height = u->height, .contrast = CONTRAST, .shift_x = shift_px[0], .shift_y = shift_px[1]};
-    host_pass_begin_at(cmd, u->pass, u->shade_framebuffer, u->width, u->height, HOST_PLATE_COLORS, 0.0f);
+    const VkViewport between = {
+        0, 0, (float)u->width, (float)u->height, (float)HOST_REUSE_BETWEEN, (float)HOST_REUSE_BETWEEN};
+    host_pass_begin(cmd, u->choose_pass, u->choose_framebuffer, u->width, u->height, 1);
+    draw_all(u, cmd, u->choose, &push);
+    vkCmdEndRenderPass(cmd);
+    host_pass_begin(cmd, u->shade_pass, u->shade_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
+    vkCmdSetViewport(cmd, 0, 1, &between);
     draw_all(u, cmd, u->take, &push);
+    host_set_area(cmd, u->width, u->height);
 }

@@ -17,7 +17,8 @@
  *         host_reuse_begin_shade, draw where the depth is equal -> vkCmdEndRenderPass
  *
  * What a pass reads is in images and not in buffers, and a draw writes what has a value for each pixel: software Vulkan
- * reads and writes buffers lane by lane. */
+ * reads and writes buffers lane by lane. Which pixels are taken is found by a draw of depth and one byte, so that what
+ * is kept is in no draw of the plate's 52 bytes: early depth tests leave it out. */
 #ifndef VIRGA_HOST_REUSE_H
 #define VIRGA_HOST_REUSE_H
 
@@ -35,16 +36,18 @@ typedef struct host_reuse {
     host_image depth;                        /* that shading is tested against */
     host_image id;                           /* of the sub-frame that is drawn */
     host_image slopes;                       /* of the first sub-frame's depth */
+    host_image places;                       /* of the pixels to take, see shaders/reuse.glsl */
     host_image first[HOST_PLATE_COLORS + 1]; /* the sub-frame that was shaded everywhere: 56 bytes a pixel */
     host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */
     host_image kinds;                        /* for each block, whether it is kept, taken or shaded */
-    VkRenderPass pass; /* keeps the plate's colors, clears depth; compatible with that of the plate */
-    VkRenderPass slope_pass;
+    VkRenderPass pass;       /* keeps the plate's colors, clears depth; compatible with that of the plate */
+    VkRenderPass shade_pass; /* of the target: keeps all */
+    VkRenderPass slope_pass, choose_pass;
     VkFramebuffer depth_framebuffer, shade_framebuffer; /* with the plate's depth, and with the other */
-    VkFramebuffer slope_framebuffer;
+    VkFramebuffer slope_framebuffer, choose_framebuffer;
     VkSampler sampler;
     host_bindings bindings;
-    VkPipeline find, check, slope, take;
+    VkPipeline find, check, slope, choose, take;
 } host_reuse;
 
 /* For one target, which must outlive it. On failure call host_reuse_destroy too. */

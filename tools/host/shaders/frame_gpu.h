@@ -140,7 +140,12 @@ struct host_contact_gpu { /* push constants */
 #define HOST_REUSE_SHADED 1
 #define HOST_REUSE_PIXELS 2
 #define HOST_REUSE_MOVES  16777215 /* as an id: of what moves by itself, whose pixels are shaded each time */
-#define HOST_REUSE_TAKEN  1e-6     /* as a depth: no surface is so near */
+
+/* Depths at which pixels are drawn that are not shaded: no surface is so near. The test for those between lets only
+ * pixels that are taken pass. */
+#define HOST_REUSE_AT_TAKEN 0.0
+#define HOST_REUSE_BETWEEN  1e-6
+#define HOST_REUSE_AT_KEPT  2e-6
 
 struct host_reuse_gpu { /* push constants */
     HOST_UINT width;

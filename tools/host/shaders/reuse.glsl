@@ -35,3 +35,8 @@ uint reuse_block(uvec2 pixel)
     const uint row = (reuse.width + HOST_REUSE_SIDE - 1u) / HOST_REUSE_SIDE;
     return pixel.y / HOST_REUSE_SIDE * row + pixel.x / HOST_REUSE_SIDE;
 }
+
+ivec2 reuse_inside(ivec2 at) { return clamp(at, ivec2(0), ivec2(reuse.width, reuse.height) - 1); }
+
+// The first sub-frame's four pixels around the point that a pixel sees, from that pixel on.
+ivec2 reuse_place(uint i) { return ivec2(floor(vec2(reuse.shift_x, reuse.shift_y))) + ivec2(i & 1u, i >> 1); }

@@ -4,7 +4,6 @@
 #define REUSE_NARROW  2.0 // no depth rises by so much
 #define REUSE_AS_NEAR 0.1
 
-ivec2 reuse_inside(ivec2 at) { return clamp(at, ivec2(0), ivec2(reuse.width, reuse.height) - 1); }
 
 float reuse_rise(sampler2D picture, ivec2 pixel, float here, ivec2 next)
 {

@@ -1,73 +1,22 @@
 #version 460
-// reuse_take.frag - where a block is not kept: a pixel takes the one of the sub-frame that was shaded everywhere which
-// sees the same surface. Edges are where this one's depth has them, and only what the first one has not seen is shaded
-// anew: there the depth is this one's own. Elsewhere it is one that nothing is equal to.
-#extension GL_EXT_control_flow_attributes : require
+// reuse_take.frag - a pixel is the one that reuse_choose.frag found for it, of the sub-frame that was shaded everywhere.
+// The depth test leaves out all others.
 #extension GL_GOOGLE_include_directive : require
 #include "attachments.glsl"
 #include "reuse.glsl"
-#include "reuse_contrast.glsl"
-#include "reuse_slope.glsl"
 
-layout(set = 0, binding = 0) uniform sampler2D depth_picture;
-layout(set = 0, binding = 5) uniform sampler2D first_depth;
 layout(set = 0, binding = 6) uniform sampler2D first_color;
 layout(set = 0, binding = 7) uniform sampler2D first_normal;
 layout(set = 0, binding = 8) uniform sampler2D first_velocity;
 layout(set = 0, binding = 9) uniform sampler2D first_water;
-layout(set = 0, binding = 10) uniform usampler2D first_id;
-layout(set = 0, binding = 11) uniform sampler2D slopes;
-layout(set = 0, binding = 12) uniform usampler2D id_picture;
-layout(set = 0, binding = 13) uniform usampler2D kinds;
-
-// The pixel to take, and whether there is one.
-ivec2 choose(ivec2 pixel, float depth, out bool is_taken)
-{
-    const float allowed = reuse_tolerance(depth);
-    const vec2 slope = reuse_slope(depth_picture, pixel, depth), shift = vec2(reuse.shift_x, reuse.shift_y);
-    const uint id = reuse_id(depth, texelFetch(id_picture, pixel, 0).r);
-    ivec2 best = pixel;
-    float nearest = 4.0; // no pixel of the square is so far away
-    vec3 low = vec3(1e30), high = vec3(0.0);
-    for (int i = 0; i < 4; i++) { // those around the point that is seen
-        const ivec2 place = ivec2(floor(shift)) + ivec2(i & 1, i >> 1), at = reuse_inside(pixel + place);
-        const vec2 away = vec2(place) - shift;
-        const vec3 color = texelFetch(first_color, at, 0).rgb;
-        const float farther = texelFetch(first_depth, at, 0).r - depth, far = dot(away, away);
-        // Each lies on the plane through the other.
-        const float apart = max(reuse_apart(slope, farther, away),
-                                reuse_apart(texelFetch(slopes, at, 0).xy, farther, away));
-        if (apart > allowed || texelFetch(first_id, at, 0).r != id)
-            continue;
-        low = min(low, color);
-        high = max(high, color);
-        best = far < nearest ? at : best;
-        nearest = min(nearest, far);
-    }
-    is_taken = nearest < 4.0 && reuse_contrast(low, high) <= reuse.contrast;
-    return best;
-}
+layout(set = 0, binding = 14) uniform usampler2D places;
 
 void main()
 {
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
-    const uint kind = texelFetch(kinds, pixel / HOST_REUSE_SIDE, 0).r;
-    float depth = texelFetch(depth_picture, pixel, 0).r;
-    ivec2 from = pixel;
-    // Loops, not branches: software Vulkan skips a loop where no lane takes it.
-    [[dont_unroll]] for (bool takes = kind == HOST_REUSE_PIXELS; takes; takes = false) {
-        bool is_taken;
-        from = choose(pixel, depth, is_taken);
-        depth = is_taken ? HOST_REUSE_TAKEN : depth;
-    }
-    [[dont_unroll]] for (bool draws = kind != HOST_REUSE_KEPT; draws; draws = false) {
-        out_color = texelFetch(first_color, from, 0);
-        out_normal = texelFetch(first_normal, from, 0);
-        out_velocity = texelFetch(first_velocity, from, 0).xy;
-        out_water = texelFetch(first_water, from, 0).xy;
-        out_id = texelFetch(first_id, from, 0).r;
-    }
-    gl_FragDepth = depth;
-    if (kind == HOST_REUSE_KEPT)
-        discard;
+    const ivec2 from = reuse_inside(pixel + reuse_place(texelFetch(places, pixel, 0).r));
+    out_color = texelFetch(first_color, from, 0);
+    out_normal = texelFetch(first_normal, from, 0);
+    out_velocity = texelFetch(first_velocity, from, 0).xy;
+    out_water = texelFetch(first_water, from, 0).xy;
 }
