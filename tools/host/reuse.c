@@ -13,7 +13,7 @@
 #include "reuse_take_frag.spv.h"
 
 #define GROUP  8 /* blocks along a side */
-#define SLOPES VK_FORMAT_R32G32_SFLOAT
+#define SEEN   VK_FORMAT_R32G32B32A32_SFLOAT
 #define PLACES VK_FORMAT_R8_UINT
 
 #define CONTRAST 0.5f /* more is shaded in each sub-frame, see host_reuse_gpu */
@@ -28,7 +28,7 @@ enum {
     AT_KINDS_WRITTEN,
     AT_FIRST_DEPTH,
     AT_FIRST, /* the colors */
-    AT_SLOPES = AT_FIRST + HOST_PLATE_COLORS,
+    AT_SEEN = AT_FIRST + HOST_PLATE_COLORS,
     AT_ID,
     AT_KINDS,
     AT_PLACES,
@@ -89,7 +89,7 @@ static bool create_images(host_device *device, host_reuse *u, char *error, size_
           .extent = pixels,
           .usage = drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, /* its layout in the plate's pass */
           .name = "ids of a sub-frame"}},
-        {&u->slopes, {.format = SLOPES, .extent = pixels, .usage = drawn, .name = "slopes of depth"}},
+        {&u->seen, {.format = SEEN, .extent = pixels, .usage = drawn, .name = "depth of the shared sub-frame"}},
         {&u->places, {.format = PLACES, .extent = pixels, .usage = drawn, .name = "places of pixels to take"}},
         {&u->kinds,
          {.format = VK_FORMAT_R32_UINT,
@@ -121,8 +121,8 @@ static bool create_framebuffers(host_device *device, const host_target *target, 
                                    error_size);
 }
 
-/* Its draw writes all of its attachments: slopes, or places and the depth to shade at, which the draws of the plate are
- * tested against. */
+/* Its draw writes all of its attachments: what the shared sub-frame saw, or places and the depth to shade at, which the
+ * draws of the plate are tested against. */
 static bool create_whole_pass(host_device *device, VkFormat format, bool depth, VkRenderPass *pass, char *error,
                               size_t error_size)
 {
@@ -146,10 +146,10 @@ static bool create_whole_pass(host_device *device, VkFormat format, bool depth, 
 static bool create_whole_passes(host_device *device, host_reuse *u, char *error, size_t error_size)
 {
     const VkImageView choice[2] = {u->places.view, u->depth.view};
-    return create_whole_pass(device, SLOPES, false, &u->slope_pass, error, error_size) &&
+    return create_whole_pass(device, SEEN, false, &u->slope_pass, error, error_size) &&
            create_whole_pass(device, PLACES, true, &u->choose_pass, error, error_size) &&
-           host_framebuffer_create(device, u->slope_pass, &u->slopes.view, 1, u->width, u->height,
-                                   &u->slope_framebuffer, error, error_size) &&
+           host_framebuffer_create(device, u->slope_pass, &u->seen.view, 1, u->width, u->height, &u->slope_framebuffer,
+                                   error, error_size) &&
            host_framebuffer_create(device, u->choose_pass, choice, 2, u->width, u->height, &u->choose_framebuffer,
                                    error, error_size);
 }
@@ -196,7 +196,7 @@ static void write_set(const host_device *device, const host_target *target, cons
     host_set_write_buffer(device, set, AT_PLANES, BUFFER, u->planes.buffer);
     host_set_write_image(device, set, AT_KINDS_WRITTEN, VK_NULL_HANDLE, u->kinds.view, VK_IMAGE_LAYOUT_GENERAL);
     host_set_write_image(device, set, AT_KINDS, u->sampler, u->kinds.view, VK_IMAGE_LAYOUT_GENERAL);
-    host_set_write_image(device, set, AT_SLOPES, u->sampler, u->slopes.view, SHOWN);
+    host_set_write_image(device, set, AT_SEEN, u->sampler, u->seen.view, SHOWN);
     host_set_write_image(device, set, AT_PLACES, u->sampler, u->places.view, SHOWN);
     host_set_write_image(device, set, AT_DEPTH, u->sampler, target->images[HOST_DEPTH].view,
                          VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
@@ -253,7 +253,7 @@ void host_reuse_destroy(host_device *device, host_reuse *u)
     host_buffer_destroy(device, &u->planes);
     host_image_destroy(device, &u->depth);
     host_image_destroy(device, &u->id);
-    host_image_destroy(device, &u->slopes);
+    host_image_destroy(device, &u->seen);
     host_image_destroy(device, &u->places);
     host_image_destroy(device, &u->kinds);
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)

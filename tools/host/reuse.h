@@ -35,7 +35,7 @@ typedef struct host_reuse {
     uint32_t width, height;                  /* 0: not created */
     host_image depth;                        /* that shading is tested against */
     host_image id;                           /* of the sub-frame that is drawn */
-    host_image slopes;                       /* of the first sub-frame's depth */
+    host_image seen;                         /* of the first sub-frame: depth, its slopes, ids */
     host_image places;                       /* of the pixels to take, see shaders/reuse.glsl */
     host_image first[HOST_PLATE_COLORS + 1]; /* the sub-frame that was shaded everywhere: 56 bytes a pixel */
     host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */

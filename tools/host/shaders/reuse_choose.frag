@@ -9,10 +9,8 @@
 #include "reuse_slope.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_picture;
-layout(set = 0, binding = 5) uniform sampler2D first_depth;
 layout(set = 0, binding = 6) uniform sampler2D first_color;
-layout(set = 0, binding = 10) uniform usampler2D first_id;
-layout(set = 0, binding = 11) uniform sampler2D slopes;
+layout(set = 0, binding = 11) uniform sampler2D first_seen; // see reuse_slope.frag
 layout(set = 0, binding = 12) uniform usampler2D id_picture;
 layout(set = 0, binding = 13) uniform usampler2D kinds;
 
@@ -23,7 +21,7 @@ uint choose(ivec2 pixel, float depth, out bool is_taken)
 {
     const float allowed = reuse_tolerance(depth);
     const vec2 slope = reuse_slope(depth_picture, pixel, depth), shift = vec2(reuse.shift_x, reuse.shift_y);
-    const uint id = reuse_id(depth, texelFetch(id_picture, pixel, 0).r);
+    const float id = float(reuse_id(depth, texelFetch(id_picture, pixel, 0).r));
     uint best = 0u;
     float nearest = 4.0; // no pixel of the square is so far away
     vec3 low = vec3(1e30), high = vec3(0.0);
@@ -31,11 +29,11 @@ uint choose(ivec2 pixel, float depth, out bool is_taken)
         const ivec2 place = reuse_place(i), at = reuse_inside(pixel + place);
         const vec2 away = vec2(place) - shift;
         const vec3 color = texelFetch(first_color, at, 0).rgb;
-        const float farther = texelFetch(first_depth, at, 0).r - depth, far = dot(away, away);
+        const vec4 seen = texelFetch(first_seen, at, 0);
+        const float farther = seen.z - depth, far = dot(away, away);
         // Each lies on the plane through the other.
-        const float apart = max(reuse_apart(slope, farther, away),
-                                reuse_apart(texelFetch(slopes, at, 0).xy, farther, away));
-        if (apart > allowed || texelFetch(first_id, at, 0).r != id)
+        const float apart = max(reuse_apart(slope, farther, away), reuse_apart(seen.xy, farther, away));
+        if (apart > allowed || seen.w != id)
             continue;
         low = min(low, color);
         high = max(high, color);

@@ -1,6 +1,6 @@
 #version 460
-// reuse_take.frag - a pixel is the one that reuse_choose.frag found for it, of the sub-frame that was shaded everywhere.
-// The depth test leaves out all others.
+// reuse_take.frag - a pixel is the one that reuse_choose.frag found for it in the sub-frame that was shaded
+// everywhere. The depth test leaves out all others.
 #extension GL_GOOGLE_include_directive : require
 #include "attachments.glsl"
 #include "reuse.glsl"
