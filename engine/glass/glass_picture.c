@@ -143,8 +143,8 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
     struct glass_picture *picture = &glass->picture;
     const virga_spirv *shader = !picture->lanes       ? VIRGA_SPIRV(glass_draw_height_comp)
-                               : picture->lanes <= 8 ? VIRGA_SPIRV(glass_draw_height_narrow_comp)
-                                                     : VIRGA_SPIRV(glass_draw_height_shuffle_comp);
+                                : picture->lanes <= 8 ? VIRGA_SPIRV(glass_draw_height_narrow_comp)
+                                                      : VIRGA_SPIRV(glass_draw_height_shuffle_comp);
     virga_result result = VIRGA_OK;
     const uint32_t count = glass_is_all_textured(settings) ? 0 : picture->any_beads ? 3 : 2;
     for (uint32_t i = 0; i < count; i++) {

@@ -27,8 +27,7 @@ static void built_destroy(virga_context *context, virga_built *built)
 /* Passes of other names have pipelines of their own, so that each has its name in a debugger. */
 static bool is_same_compute(const virga_compute_def *a, const virga_compute_def *b)
 {
-    return a->shader == b->shader && a->layout == b->layout && a->constant == b->constant &&
-           !strcmp(a->name, b->name);
+    return a->shader == b->shader && a->layout == b->layout && a->constant == b->constant && !strcmp(a->name, b->name);
 }
 
 static bool is_same_target(const virga_graphics_def *a, const virga_graphics_def *b)

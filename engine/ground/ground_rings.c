@@ -27,10 +27,10 @@ VkDeviceSize ground_ripples_bytes(uint32_t texels)
     return map + 2 * waves; /* and their upload buffer */
 }
 
-/* A row of the wave table as its image stores it, all radii at one time: slope divided by radius, faded to zero near the
- * end of the table. A pixel multiplies it by its offset from the centre. Radii are in centimetres, because in metres the
- * slopes of the crater may exceed half floats. In the centre both slope and radius are 0, so the entry of the next
- * radius is used; the difference is negligible. */
+/* A row of the wave table as its image stores it, all radii at one time: slope divided by radius, faded to zero near
+ * the end of the table. A pixel multiplies it by its offset from the centre. Radii are in centimetres, because in
+ * metres the slopes of the crater may exceed half floats. In the centre both slope and radius are 0, so the entry of
+ * the next radius is used; the difference is negligible. */
 static void fill_entries(const float *slopes, double reach, uint16_t *entries)
 {
     for (size_t radius = 0; radius < VIRGA_RING_RADII; radius++) {

@@ -68,8 +68,9 @@ double ring_reach(int layer, double t)
 
 /* How many waves the sum at one time needs, for radii up to `reach`. The phases of two neighbours, k r + w t, differ by
  * dk (r + c t) with c = dw / dk, and the sum repeats itself where that is a full turn. With dk = KA_MAX / (a n) and
- * c t < r, which holds as the reach grows as fast as the waves do, n must be above KA_MAX / pi reach / a = 2.04 reach / a.
- * With a quarter more the error is below 0.0002 of the largest slope. In steps of 16: each new number starts anew. */
+ * c t < r, which holds as the reach grows as fast as the waves do, n must be above KA_MAX / pi reach / a, or
+ * 2.04 reach / a. With a quarter more the sums are within 0.00024 of the largest slope of those of 160 waves. In steps
+ * of 16: each new number starts anew. */
 static int wave_count(double a, double reach)
 {
     const int steps = (int)ceil(2.6 * reach / a / 16);

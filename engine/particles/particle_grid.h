@@ -79,8 +79,8 @@ enum { PARTICLE_GRID_BIND_STEP, PARTICLE_GRID_BIND_PARTICLES = 2, PARTICLE_GRID_
         PARTICLE_GRID_ROW(object, group_starts), PARTICLE_GRID_ROW(object, sorted_velocities) /* 9, 10 */
 
 /* The rows of its passes. The file that uses them includes shaders/particles_shaders.h. */
-#define PARTICLE_GRID_PASS(object, prefix, pass, layout)                                                              \
-    {                                                                                                                 \
+#define PARTICLE_GRID_PASS(object, prefix, pass, layout)                                                          \
+    {                                                                                                             \
         prefix ".grid_" #pass, PARTICLE_GRID_AT(object, pass), VIRGA_SPIRV(particles_##pass##_comp), 0, 0, layout \
     }
 #define PARTICLE_GRID_PASSES(object, prefix, layout)                                                            \

@@ -117,7 +117,7 @@ static bool create_context(drive *d)
     def.pipeline_cache = compiled;
     def.pipeline_cache_size = size;
     def.log = print_log;
-    def.timings = d->chosen.out; /* they are printed then. Without them effects share barriers on GPUs */
+    def.timings = d->chosen.out;               /* they are printed then. Without them effects share barriers on GPUs */
     if (d->chosen.out && !d->chosen.real_time) /* a frame may take longer: only what is used is compiled */
         def.pipeline_build_mode = VIRGA_PIPELINES_ON_USE;
     def.wide_lines = d->device.wide_lines;

@@ -1,6 +1,6 @@
 #version 460
-// contact_near.comp - for each workgroup of contact.comp, the highest top of anything that its shade may come from. It is
-// found in two runs: with TILES for what stands on the workgroup's own texels, then for all workgroups within reach.
+// contact_near.comp - for each workgroup of contact.comp, the highest top of anything that its shade may come from. It
+// is found in two runs: with TILES for what stands on the workgroup's own texels, then for all workgroups within reach.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 #include "contact_maps.glsl"

@@ -4,7 +4,6 @@
 #define REUSE_NARROW  2.0 // no depth rises by so much
 #define REUSE_AS_NEAR 0.1
 
-
 float reuse_rise(sampler2D picture, ivec2 pixel, float here, ivec2 next)
 {
     const float before = texelFetch(picture, reuse_inside(pixel - next), 0).r;
