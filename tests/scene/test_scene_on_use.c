@@ -52,12 +52,13 @@ static void each_failed_build_is_an_error_of_its_call(void **state)
     (void)state;
     for (size_t e = 0; e < EFFECTS; e++) {
         const bool rain = !strcmp(effects[e].name, "rain");
+        const bool is_empty = !strcmp(effects[e].name, "fluid"); /* without particles there is nothing to build */
         const recording calls[3] = {rain ? draw_occlusion : NULL, effects[e].step, effects[e].prepare};
         uint32_t unbuilt = 0;
         for (uint32_t k = 1; fail_one(effects[e].name, calls, k, &unbuilt); k++)
             assert_true(k < 500);
         printf("%s: %u failed builds\n", effects[e].name, unbuilt);
-        assert_true(unbuilt > 0);
+        assert_true(is_empty ? unbuilt == 0 : unbuilt > 0);
     }
 }
 
