@@ -71,6 +71,12 @@ static float strength_of(const json_t *material)
     return json_is_number(strength) && isfinite(value) && value >= 0.0f ? value : 1.0f;
 }
 
+static bool is_called(const json_t *material, const char *name)
+{
+    const char *written = json_string_value(json_object_get(material, "name"));
+    return strcmp(written ? written : "", name) == 0;
+}
+
 float host_gltf_strength(const host_gltf *gltf, const host_device *device, const char *name, const float factor[3])
 {
     float strength = -1.0f;
@@ -80,8 +86,7 @@ float host_gltf_strength(const host_gltf *gltf, const host_device *device, const
         return 1.0f;
     json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
     {
-        const char *written = json_string_value(json_object_get(material, "name"));
-        if (strcmp(written ? written : "", name) != 0 || !has_factor(material, factor))
+        if (!is_called(material, name) || !has_factor(material, factor))
             continue;
         const float value = strength_of(material);
         if (strength >= 0.0f && value != strength) {
@@ -102,11 +107,10 @@ float host_gltf_transmission(const host_gltf *gltf, const char *name)
         return 0.0f;
     json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
     {
-        const char *written = json_string_value(json_object_get(material, "name"));
         const json_t *extension =
             json_object_get(json_object_get(material, "extensions"), "KHR_materials_diffuse_transmission");
         const double value = json_number_value(json_object_get(extension, "diffuseTransmissionFactor"));
-        if (strcmp(written ? written : "", name) == 0)
+        if (is_called(material, name))
             return isfinite(value) ? (float)fmin(fmax(value, 0), 1) : 0.0f;
     }
     return 0.0f;
