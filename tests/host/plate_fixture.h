@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "host.h"
@@ -62,6 +63,32 @@ static inline uint32_t fixture_end(fixture *f)
     host_instance_destroy(&f->instance);
     fixture_wrong += live + f->instance.messages;
     return live + f->instance.messages;
+}
+
+/* What cmocka calls before and after a group of tests: a scene of `size` bytes that begins with a fixture, all zero,
+ * which `build` fills. Without a device the tests are skipped. */
+static inline int fixture_set_up(void **state, size_t size, bool (*build)(void *scene))
+{
+    fixture *f = calloc(1, size);
+    *state = f;
+    if (!f || !fixture_begin(f)) {
+        fprintf(stderr, "no device to draw with: %s\n", f ? f->error : "no memory");
+        exit(77);
+    }
+    if (build(f))
+        return 0;
+    fprintf(stderr, "%s\n", f->error);
+    return -1;
+}
+
+/* After all that the scene holds is destroyed; frees the scene. */
+static inline int fixture_tear_down(fixture *f)
+{
+    const uint32_t wrong = fixture_end(f);
+    if (wrong)
+        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
+    free(f);
+    return wrong ? -1 : 0;
 }
 
 /* The exit code of main, from the number of failed cases: cmocka does not count the teardown of a group. */

@@ -55,8 +55,9 @@ static bool add_cloth(scene *s)
            host_renderer_add(s->renderer, &s->cloth, s->base.error, sizeof s->base.error);
 }
 
-static bool build(scene *s)
+static bool build(void *zeroed)
 {
+    scene *s = zeroed;
     host_device *device = &s->base.device;
     char *error = s->base.error;
     const size_t size = sizeof s->base.error;
@@ -71,16 +72,7 @@ static bool build(scene *s)
 
 static int set_up(void **state)
 {
-    scene *s = calloc(1, sizeof *s);
-    *state = s;
-    if (!fixture_begin(&s->base)) {
-        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
-        exit(77);
-    }
-    if (build(s))
-        return 0;
-    fprintf(stderr, "%s\n", s->base.error);
-    return -1;
+    return fixture_set_up(state, sizeof(scene), build);
 }
 
 static int tear_down(void **state)
@@ -92,11 +84,7 @@ static int tear_down(void **state)
     host_environment_destroy(&s->base.device, &s->environment);
     host_mesh_destroy(&s->base.device, &s->cloth);
     host_target_destroy(&s->base.device, &s->target);
-    const uint32_t wrong = fixture_end(&s->base);
-    if (wrong)
-        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
-    free(s);
-    return wrong ? -1 : 0;
+    return fixture_tear_down(&s->base);
 }
 
 /* What is seen in the middle, with a lamp straight before the cloth or straight behind it. */

@@ -102,8 +102,9 @@ static bool make_cube(scene *s)
                             sizeof s->base.error);
 }
 
-static bool build(scene *s)
+static bool build(void *zeroed)
 {
+    scene *s = zeroed;
     host_device *device = &s->base.device;
     char *error = s->base.error;
     size_t size = sizeof s->base.error;
@@ -177,16 +178,7 @@ static bool draw(scene *s, uint32_t samples)
 
 static int set_up(void **state)
 {
-    scene *s = calloc(1, sizeof *s);
-    *state = s;
-    if (!fixture_begin(&s->base)) {
-        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
-        exit(77);
-    }
-    if (build(s))
-        return 0;
-    fprintf(stderr, "%s\n", s->base.error);
-    return -1;
+    return fixture_set_up(state, sizeof(scene), build);
 }
 
 static void destroy_puddle(scene *s, puddle *p)
@@ -211,11 +203,7 @@ static int tear_down(void **state)
     host_mesh_destroy(&s->base.device, &s->cube);
     host_mesh_destroy(&s->base.device, &s->plane);
     host_target_destroy(&s->base.device, &s->target);
-    uint32_t wrong = fixture_end(&s->base);
-    if (wrong)
-        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
-    free(s);
-    return wrong ? -1 : 0;
+    return fixture_tear_down(&s->base);
 }
 
 static size_t at(int x, int y)

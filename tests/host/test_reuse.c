@@ -64,8 +64,9 @@ static bool make_meshes(scene *s)
            make_quad(s, post, (const float[3]){0, 0, 1}, POST_ALBEDO, &s->post);
 }
 
-static bool build(scene *s)
+static bool build(void *zeroed)
 {
+    scene *s = zeroed;
     host_device *device = &s->base.device;
     char *error = s->base.error;
     const size_t size = sizeof s->base.error;
@@ -85,16 +86,7 @@ static bool build(scene *s)
 
 static int set_up(void **state)
 {
-    scene *s = calloc(1, sizeof *s);
-    *state = s;
-    if (!fixture_begin(&s->base)) {
-        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
-        exit(77);
-    }
-    if (build(s))
-        return 0;
-    fprintf(stderr, "%s\n", s->base.error);
-    return -1;
+    return fixture_set_up(state, sizeof(scene), build);
 }
 
 static int tear_down(void **state)
@@ -109,11 +101,7 @@ static int tear_down(void **state)
     host_mesh_destroy(&s->base.device, &s->wall);
     host_mesh_destroy(&s->base.device, &s->bar);
     host_target_destroy(&s->base.device, &s->target);
-    const uint32_t wrong = fixture_end(&s->base);
-    if (wrong)
-        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
-    free(s);
-    return wrong ? -1 : 0;
+    return fixture_tear_down(&s->base);
 }
 
 /* How a picture is drawn. */

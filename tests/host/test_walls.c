@@ -52,8 +52,9 @@ static bool add_quad(scene *s, uint32_t index, const float corners[4][3], const 
            host_renderer_add(s->renderer, &s->meshes[index], error, sizeof s->base.error);
 }
 
-static bool build(scene *s)
+static bool build(void *zeroed)
 {
+    scene *s = zeroed;
     static const float wall[4][3] = {{-5, 0, 0}, {5, 0, 0}, {5, 6, 0}, {-5, 6, 0}};
     static const float awning[4][3] = {{-5, 3, 0}, {0, 3, 0}, {0, 3, 1}, {-5, 3, 1}};
     static const float sheet[4][3] = {{1, 3.2f, 0.01f}, {3, 3.2f, 0.01f}, {3, 4.8f, 0.01f}, {1, 4.8f, 0.01f}};
@@ -73,16 +74,7 @@ static bool build(scene *s)
 
 static int set_up(void **state)
 {
-    scene *s = calloc(1, sizeof *s);
-    *state = s;
-    if (!fixture_begin(&s->base)) {
-        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
-        exit(77);
-    }
-    if (build(s))
-        return 0;
-    fprintf(stderr, "%s\n", s->base.error);
-    return -1;
+    return fixture_set_up(state, sizeof(scene), build);
 }
 
 static int tear_down(void **state)
@@ -95,11 +87,7 @@ static int tear_down(void **state)
     for (int i = 0; i < 3; i++)
         host_mesh_destroy(&s->base.device, &s->meshes[i]);
     host_target_destroy(&s->base.device, &s->target);
-    const uint32_t wrong = fixture_end(&s->base);
-    if (wrong)
-        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
-    free(s);
-    return wrong ? -1 : 0;
+    return fixture_tear_down(&s->base);
 }
 
 static void draw(scene *s, const virga_walls *walls)
