@@ -402,8 +402,8 @@ static void add_pinholes(shot *s, opening lens, double *sum)
 }
 
 /* What is far away looks the same from each pinhole, so the plate is still. Means over 8 x 8 pixels are compared. Two
- * lamps that are thirty times as bright as the ground are the worst for 32 samples a drop: 3 % of the sum and 19 % of
- * the brightest block. With 64 and 256 samples it is 0.6 % and 11 %, 0.3 % and 2.5 %. */
+ * lamps that are thirty times as bright as the ground are the worst for 32 samples a drop: 6 % of the sum and 14 % of
+ * the brightest block. With 64 and 256 samples it is 0.6 % and 8 %, 0.9 % and 3 %. */
 static void it_is_the_mean_of_pinholes(void **state)
 {
     (void)state;
@@ -432,9 +432,65 @@ static void it_is_the_mean_of_pinholes(void **state)
         sums[1] += b;
     }
     print_message("off by %.4f of %.4f, sums %.4f\n", worst, brightest, sums[0] / sums[1]);
-    assert_true(worst < 0.25 * brightest);
-    assert_true(fabs(sums[0] / sums[1] - 1) < 0.04);
+    assert_true(worst < 0.18 * brightest);
+    assert_true(fabs(sums[0] / sums[1] - 1) < 0.07);
     free(mean);
+    shot_close(&s);
+}
+
+/* ---- the disc of a lamp */
+
+enum { WIDE = 720, HIGH = 400, LAMP_PX = 3 };
+
+/* A lamp of a few pixels in the middle, and nothing else. */
+static void put_far_lamp(shot *s)
+{
+    float *pixels = calloc(4ull * WIDE * HIGH, sizeof *pixels);
+    REQUIRE(pixels);
+    for (int i = 0; i < 4 * LAMP_PX * LAMP_PX; i++) {
+        const int x = (WIDE - LAMP_PX) / 2 + i / 4 % LAMP_PX, y = (HIGH - LAMP_PX) / 2 + i / 4 / LAMP_PX;
+        pixels[4 * (y * WIDE + x) + i % 4] = i % 4 == 3 ? 1 : 1000;
+    }
+    shot_plate(s, pixels);
+    free(pixels);
+    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
+}
+
+/* A cap of the height h, in radii of its base, turns a ray that crosses it x radii from its middle by 2 h (n - 1) x
+ * towards the middle. Where the opening sees all of the drop, a pixel in the direction d shows a lamp in the direction
+ * L at x = (d - L) / (2 h (n - 1)): once, if that is on the drop. So the lamp becomes a disc of one light, with a radius
+ * of 2 h (n - 1) rad. Over the inner two thirds of it the light must not vary by more than 12 % (standard deviation);
+ * it was 18 % when the parts of the picture that samples show did not meet. A part is wider than it is tall, so up to a
+ * fifth of the light comes to lie beside that. */
+static void the_disc_of_a_lamp_has_no_stripes(void **state)
+{
+    (void)state;
+    shot s;
+    shot_open(&s, NULL, WIDE, HIGH, false);
+    s.settings.style = VIRGA_GLASS_STYLE_FRONT;
+    s.settings.advancing_deg = 11;
+    s.settings.receding_deg = 10;
+    look(&s, (const double[2]){0, 0});
+    put_far_lamp(&s);
+    shot_forget(&s);
+    shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.002));
+    const float *pixels = draw_front(&s, (opening){0.006, 0});
+    const double px_of_rad = 0.5 * HIGH / 0.57735026918962576, h = tan(glass_seen_deg(&s.settings) * PI / 360);
+    const double disc = 2 * h * 0.333 * px_of_rad;
+    double sum = 0, squares = 0, number = 0;
+    for (int p = 0; p < WIDE * HIGH; p++) {
+        if (hypot(p % WIDE + 0.5 - 0.5 * WIDE, p / WIDE + 0.5 - 0.5 * HIGH) > 2.0 / 3 * disc)
+            continue;
+        const double light = (double)pixels[4 * p] / (double)pixels[4 * p + 3];
+        sum += light;
+        squares += light * light;
+        number++;
+    }
+    const double mean = sum / number, varies = sqrt(fmax(squares / number - mean * mean, 0)) / mean;
+    const double expected = 1000.0 * LAMP_PX * LAMP_PX / (PI * disc * disc);
+    print_message("disc of %.1f px: %.3f, expected %.3f, varies by %.3f\n", disc, mean, expected, varies);
+    assert_true(varies < 0.12);
+    assert_true(fabs(mean / expected - 1) < 0.2);
     shot_close(&s);
 }
 
@@ -446,6 +502,7 @@ int main(void)
         cmocka_unit_test(a_veil_covers_its_share_evenly),
         cmocka_unit_test(without_drops_nothing_is_drawn),
         cmocka_unit_test(it_is_the_mean_of_pinholes),
+        cmocka_unit_test(the_disc_of_a_lamp_has_no_stripes),
         cmocka_unit_test(a_starburst_has_the_light_of_its_streaks),
         cmocka_unit_test(streaks_keep_an_even_scene_even),
         cmocka_unit_test(with_blades_the_share_is_that_of_their_opening),

@@ -31,6 +31,7 @@
 #include "view.glsl"
 #include "gpu/light.glsl"
 #include "drop_inputs.glsl"
+#define FAR_APART
 #include "plate.glsl"
 #include "path.glsl"
 #include "drop_path.glsl"
@@ -72,6 +73,7 @@ vec3 light_through(float opening)
     const float smaller = min(opening, 1.0), larger = max(opening, 1.0), side = smaller * SPACING;
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     vec4 sum = vec4(0.0);
+    far_apart = true;
     for (int i = 0; i < SAMPLES; i++) {
         const vec2 at = middle + smaller * spiral(i);
         float weight = clamp((larger - length(at - other)) / side + 0.5, 1e-4, 1.0);

@@ -8,16 +8,27 @@ layout(set = 0, binding = 16) uniform sampler2D scene_color;
 vec2 plate_size() { return vec2(textureSize(scene_color, 0)); }
 
 #ifndef PAPER
+// Set where samples are far apart: each is `pixels` from the next in both directions, and what it shows must meet what
+// the next one shows. A copy has as many rows as columns, so its texels are as wide as the picture is and not square.
+// One that is `pixels` wide across its narrow side leaves no gap; the copies above and below it are blended.
+bool far_apart = false;
+
 // The mean over about `pixels` x `pixels` pixels of the picture.
 vec3 plate_at(vec2 pixel, float pixels)
 {
-    const vec2 uv = pixel / plate_size();
-    const float copied = max(max(plate_size().x, plate_size().y) / float(VIRGA_GLASS_COPY), 1.0);
+    const vec2 uv = pixel / plate_size(), texel = plate_size() / float(VIRGA_GLASS_COPY);
+    const float copied = max(max(texel.x, texel.y), 1.0), last = float(VIRGA_GLASS_COPY_LEVELS - 1);
+#ifdef FAR_APART
+    if (far_apart) {
+        const float level = clamp(log2(pixels / min(texel.x, texel.y)), 0.0, last), finer = floor(level);
+        return mix(copy_at(uv, int(finer)), copy_at(uv, int(min(finer + 1.0, last))), level - finer);
+    }
+#endif
     const float level = log2(max(pixels / copied, 1e-3));
     // Only the nearest copy: drops are too small to show the border between two levels. The largest copy of a small
     // picture has texels that are smaller than a pixel: looked up once a pixel, they do not add up to its light.
     const float sharp = copied > 1.0 ? clamp(-level / log2(copied), 0.0, 1.0) : level < 0.5 ? 1.0 : 0.0;
-    const int nearest = clamp(int(level + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
+    const int nearest = int(clamp(floor(level + 0.5), 0.0, last));
     return mix(copy_at(uv, nearest), host_color(textureLod(scene_color, uv, 0.0).rgb, uint(tint_given.w)), sharp);
 }
 
