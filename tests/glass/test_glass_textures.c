@@ -305,16 +305,34 @@ static double filtered(const float *texels, uint32_t column, uint32_t row, uint3
     return mixed(rows[0], rows[1], t[1]);
 }
 
-/* What a drop at (u, v) shows: bilinear between the four textures around it. */
-static double blended(const float *texels, const double middle[2], uint32_t level, const double at[2], int c)
+/* Where on the texture of a point of the mesh a drop finds what it shows at `at`, in radii: both turn the eye's ray by
+ * 2 h (n - 1) times the distance from the middle, and the rays differ. */
+static void find_on_texture(const shot *s, const double middle[2], const double point[2], const double at[2],
+                            double found[2])
+{
+    const double turned = 2 * tan(glass_seen_deg(&s->settings) * M_PI / 360) * (WATER - 1);
+    for (int i = 0; i < 2; i++)
+        found[i] = at[i] + (point[i] - middle[i]) / fabs(s->camera.position_m[2]) / turned;
+}
+
+/* What a drop at (u, v) shows: bilinear between those of the four textures around it that show it. */
+static double blended(const shot *s, const float *texels, const double middle[2], uint32_t level, const double at[2],
+                      int c)
 {
     const double grid[2] = {middle[0] / 0.096 * (POINTS - 1), middle[1] / 0.064 * (POINTS - 1)};
-    const uint32_t column = (uint32_t)grid[0], row = (uint32_t)grid[1];
-    return mixed(mixed(filtered(texels, column, row, level, at, c), filtered(texels, column + 1, row, level, at, c),
-                       grid[0] - column),
-                 mixed(filtered(texels, column, row + 1, level, at, c),
-                       filtered(texels, column + 1, row + 1, level, at, c), grid[0] - column),
-                 grid[1] - row);
+    const uint32_t low[2] = {(uint32_t)grid[0], (uint32_t)grid[1]};
+    double sum = 0, weights = 0;
+    for (uint32_t i = 0; i < 4; i++) {
+        const uint32_t column = low[0] + i % 2, row = low[1] + i / 2;
+        const double point[2] = {0.096 * column / (POINTS - 1), 0.064 * row / (POINTS - 1)};
+        double found[2];
+        find_on_texture(s, middle, point, at, found);
+        const double weight = (1 - fabs(grid[0] - column)) * (1 - fabs(grid[1] - row)) *
+                              fmin(fmax((1 - hypot(found[0], found[1])) / 0.25, 1e-3), 1);
+        sum += weight * filtered(texels, column, row, level, found, c);
+        weights += weight;
+    }
+    return sum / weights;
 }
 
 /* Drops as wide as the first and the second level have texels, anywhere on the pane: each pixel to 0.003. */
@@ -343,7 +361,7 @@ static void a_drop_blends_the_four_textures_around_it(void **state)
                 if (hypot(at[0], at[1]) > 0.75)
                     continue;
                 for (int c = 0; c < 2; c++)
-                    assert_float_equal((double)t.pixels[4 * i + c] / alpha, blended(texels, middle, level, at, c),
+                    assert_float_equal((double)t.pixels[4 * i + c] / alpha, blended(s, texels, middle, level, at, c),
                                        level ? 5e-3 : 3e-3);
                 used++;
             }

@@ -23,19 +23,28 @@ layout(set = 0, binding = 30) uniform sampler2D textures;
 
 layout(location = 0) out vec4 radiance;
 
-// The four textures around the drop, in one level.
+layout(location = 4) flat in vec4 shifts[2]; // as in drop.vert
+
+#define RIM_SHARE 0.25 // of a radius, over which a texture fades out towards its rim
+#define BEYOND    1e-3 // what remains of it beyond, where no texture has the pixel
+
+// The four textures around the drop, in one level: those that show what is seen here.
 vec3 blended(float level)
 {
-    const vec2 one = 1.0 / vec2(textureSize(textures, 0)), right = vec2(2.0 * amount.w, 0.0), up = vec2(0.0, amount.w);
+    const vec2 one = 1.0 / vec2(textureSize(textures, 0));
     const float texels = amount.w * exp2(-level);
-    const vec2 at = tile.xy + vec2(2.0 * (amount.w - texels), 0.0) +
-                    clamp((0.5 * local + 0.5) * texels, vec2(0.5), vec2(texels - 0.5));
-    const vec3 low = mix(textureLod(textures, at * one, 0.0).rgb, textureLod(textures, (at + right) * one, 0.0).rgb,
-                         tile.z);
-    const vec2 above = at + up;
-    const vec3 high = mix(textureLod(textures, above * one, 0.0).rgb,
-                          textureLod(textures, (above + right) * one, 0.0).rgb, tile.z);
-    return mix(low, high, tile.w);
+    const vec2 first = tile.xy + vec2(2.0 * (amount.w - texels), 0.0);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < 4u; i++) {
+        const vec2 step = vec2(float(i & 1u), float(i >> 1u));
+        const vec2 shift = (i & 1u) == 0u ? shifts[i >> 1u].xy : shifts[i >> 1u].zw, there = local + shift;
+        const vec2 at = first + vec2(2.0, 1.0) * amount.w * step +
+                        clamp((0.5 * there + 0.5) * texels, vec2(0.5), vec2(texels - 0.5));
+        const vec2 weight = mix(1.0 - tile.zw, tile.zw, step);
+        const float has = clamp((1.0 - length(there)) / RIM_SHARE, BEYOND, 1.0);
+        sum += weight.x * weight.y * has * vec4(textureLod(textures, at * one, 0.0).rgb, 1.0);
+    }
+    return sum.rgb / max(sum.a, 1e-30);
 }
 
 // A loop, because software Vulkan leaves one as soon as no lane needs it, but runs both sides of a branch.
