@@ -79,9 +79,15 @@ static bool is_added(const host_accumulator *a, const host_target *target, int o
 
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
-/* The output, the sum, weights. */
-static const VkDescriptorType kinds[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                          VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+/* The output, weights. */
+static const VkDescriptorType kinds[2] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+static const VkPipelineColorBlendAttachmentState blend_sum = {.blendEnable = VK_TRUE,
+                                                              .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                              .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                              .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                              .colorWriteMask = 0xf};
 
 /* Of passes and pipelines. */
 static int kind_of(host_output output)
@@ -89,19 +95,17 @@ static int kind_of(host_output output)
     return host_output_channels(output) == 2;
 }
 
-/* Sub-frames are added one after another, each by its pass. A pixel is read only by the invocation that writes it. */
+/* Sub-frames are added one after another, each by its pass. */
 static bool create_pass(host_accumulator *a, VkFormat format, VkRenderPass *pass, char *error, size_t error_size)
 {
     VkAttachmentDescription attachment = host_attachment(format, VK_IMAGE_LAYOUT_GENERAL);
-    const VkPipelineStageFlags drawing =
-        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
     const host_pass_def def = {
         .attachments = &attachment,
         .color_count = 1,
-        .reads_itself = true,
-        .before = {drawing | VK_PIPELINE_STAGE_TRANSFER_BIT, writes, drawing,
-                   writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_INPUT_ATTACHMENT_READ_BIT},
+        .general = true,
+        .before = {drawing, writes, drawing, writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT},
         .after = {drawing, writes, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT},
     };
     attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
@@ -113,18 +117,25 @@ static bool create_pipelines(host_accumulator *a, char *error, size_t error_size
 {
     const VkFormat formats[2] = {host_output_format(HOST_COLOR), host_output_format(HOST_VELOCITY)};
     const host_code codes[2] = {HOST_CODE(accumulate_frag), HOST_CODE(accumulate_frag_pair)};
-    for (int i = 0; i < 2; i++)
-        if (!create_pass(a, formats[i], &a->passes[i], error, error_size) ||
-            !host_fullscreen_create(a->device, host_fullscreen_vertex(), codes[i], a->layout, a->passes[i], &a->add[i],
-                                    error, error_size))
+    for (int i = 0; i < 2; i++) {
+        if (!create_pass(a, formats[i], &a->passes[i], error, error_size))
             return false;
+        const host_graphics_def def = {.vertex = host_fullscreen_vertex(),
+                                       .fragment = codes[i],
+                                       .layout = a->layout,
+                                       .pass = a->passes[i],
+                                       .colors = &blend_sum,
+                                       .color_count = 1};
+        if (!host_graphics_create(a->device, &def, &a->add[i], error, error_size))
+            return false;
+    }
     return true;
 }
 
 static bool create_parts(host_accumulator *a, char *error, size_t error_size)
 {
     const VkShaderStageFlags stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    const host_set_shape shape = {kinds, 3, stage};
+    const host_set_shape shape = {kinds, 2, stage};
     const uint32_t count = HOST_FRAMES * HOST_OUTPUT_COUNT;
     return host_buffer_create(a->device, sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_DEVICE,
                               "no weights", &a->no_weights, error, error_size) &&
@@ -221,12 +232,27 @@ static bool create_sum(host_accumulator *a, host_output output, char *error, siz
     host_image *sum = &a->sums[output];
     const host_image_def def = {.format = host_output_format(output),
                                 .extent = {a->width, a->height, 1},
-                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT |
-                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                 .name = "sum of sub-frames"};
     return host_image_create(a->device, &def, sum, error, error_size) &&
            host_framebuffer_create(a->device, a->passes[kind_of(output)], &sum->view, 1, a->width, a->height,
                                    &a->framebuffers[output], error, error_size);
+}
+
+/* A sum of nothing. What read or wrote the one before is done. */
+static void clear_sum(VkCommandBuffer cmd, const host_image *sum)
+{
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                               copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    const VkClearColorValue nothing = {{0}};
+    host_image_barrier(cmd, sum, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, drawing | copying, 0, copying,
+                       VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdClearColorImage(cmd, sum->image, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
+    host_image_barrier(cmd, sum, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL, copying,
+                       VK_ACCESS_TRANSFER_WRITE_BIT, drawing,
+                       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
 }
 
 /* The sum, and the sets of an output. The device does not use them yet. */
@@ -236,15 +262,12 @@ static bool prepare(host_accumulator *a, VkCommandBuffer cmd, const host_target 
     host_image *sum = &a->sums[output];
     if (!sum->image && !create_sum(a, output, error, error_size))
         return false;
-    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    host_image_barrier(cmd, sum, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
-                       drawing | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, drawing, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+    clear_sum(cmd, sum);
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
         const VkDescriptorSet set = a->sets[i][output];
         host_set_write_image(a->device, set, 0, a->sampler, host_target_shown(target, output)->view,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        host_set_write_input(a->device, set, 1, sum->view);
-        host_set_write_buffer(a->device, set, 2, kinds[2],
+        host_set_write_buffer(a->device, set, 1, kinds[1],
                               a->weight_sums ? a->weights[i].buffer : a->no_weights.buffer);
     }
     return true;
@@ -252,7 +275,7 @@ static bool prepare(host_accumulator *a, VkCommandBuffer cmd, const host_target 
 
 static void add(const host_accumulator *a, VkCommandBuffer cmd, host_output output)
 {
-    const struct host_accumulate_gpu push = {a->width, a->counts[output] == 0, a->weight_sums != NULL};
+    const struct host_accumulate_gpu push = {a->width, a->weight_sums != NULL};
     const int kind = kind_of(output);
     host_pass_begin(cmd, a->passes[kind], a->framebuffers[output], a->width, a->height, 1);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, a->add[kind]);

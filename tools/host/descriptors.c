@@ -118,32 +118,19 @@ void host_bindings_destroy(const host_device *device, const host_bindings *bindi
     vkDestroyDescriptorSetLayout(device->device, bindings->set_layout, NULL);
 }
 
-static void write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
-                        VkDescriptorImageInfo image)
+void host_set_write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkSampler sampler,
+                          VkImageView view, VkImageLayout layout)
 {
+    const VkDescriptorImageInfo image = {sampler, view, layout};
     const VkWriteDescriptorSet write = {
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
         .dstSet = set,
         .dstBinding = binding,
         .descriptorCount = 1,
-        .descriptorType = type,
+        .descriptorType = sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
         .pImageInfo = &image,
     };
     vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
-}
-
-void host_set_write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkSampler sampler,
-                          VkImageView view, VkImageLayout layout)
-{
-    const VkDescriptorType type =
-        sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    write_image(device, set, binding, type, (VkDescriptorImageInfo){sampler, view, layout});
-}
-
-void host_set_write_input(const host_device *device, VkDescriptorSet set, uint32_t binding, VkImageView view)
-{
-    write_image(device, set, binding, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT,
-                (VkDescriptorImageInfo){VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
 }
 
 void host_set_write_buffer(const host_device *device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,

@@ -72,9 +72,6 @@ bool host_sets_allocate(host_device *device, VkDescriptorPool pool, VkDescriptor
 void host_set_write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkSampler sampler,
                           VkImageView view, VkImageLayout layout);
 
-/* What a pass draws into and reads, in the layout GENERAL. */
-void host_set_write_input(const host_device *device, VkDescriptorSet set, uint32_t binding, VkImageView view);
-
 /* A whole buffer. */
 void host_set_write_buffer(const host_device *device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
                            VkBuffer buffer);

@@ -32,13 +32,11 @@ bool host_pass_create(host_device *device, const host_pass_def *def, VkRenderPas
     VkAttachmentReference colors[HOST_PASS_COLORS];
     VkSubpassDependency dependencies[2];
     for (uint32_t i = 0; i < def->color_count; i++)
-        colors[i] = (VkAttachmentReference){i, def->reads_itself ? VK_IMAGE_LAYOUT_GENERAL
-                                                                 : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+        colors[i] = (VkAttachmentReference){i, def->general ? VK_IMAGE_LAYOUT_GENERAL
+                                                            : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth = {def->color_count, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass = {
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-        .inputAttachmentCount = def->reads_itself,
-        .pInputAttachments = colors,
         .colorAttachmentCount = def->color_count,
         .pColorAttachments = colors,
         .pDepthStencilAttachment = def->depth ? &depth : NULL,

@@ -16,7 +16,7 @@ typedef struct host_pass_def {
     const VkAttachmentDescription *attachments; /* colors, then depth */
     uint32_t color_count;                       /* at most HOST_PASS_COLORS */
     bool depth;
-    bool reads_itself;        /* the only attachment is an input of its shader too, in the layout GENERAL */
+    bool general;             /* colors stay in the layout GENERAL */
     host_order before, after; /* dependencies on commands outside the pass; all zero: none */
 } host_pass_def;
 

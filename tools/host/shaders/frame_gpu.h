@@ -163,7 +163,6 @@ struct host_reuse_gpu { /* push constants */
 
 struct host_accumulate_gpu { /* push constants */
     HOST_UINT width;
-    HOST_UINT is_first;   /* the sum has nothing yet */
     HOST_UINT is_weighed; /* each pixel counts by its weight */
 };
 
