@@ -215,10 +215,10 @@ static bool set_rain(drive *d)
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
 
-/* Edges of awnings, balconies and trees, found when the street was loaded, and those of the car where it is now. */
+/* Edges of awnings, balconies and trees, of all that were found those near the camera, and those of the car. */
 static bool set_drips(drive *d)
 {
-    move_car_drips(d);
+    move_drips(d);
     return fine(d, virga_splash_set_drips(virga_scene_splash(d->rain), d->drips, d->drip_count + d->car_drip_count),
                 "edges that drip");
 }

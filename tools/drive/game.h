@@ -9,6 +9,7 @@
 
 #include "boxes.h"
 #include "car.h"
+#include "drips.h"
 #include "place.h"
 #include "stage.h"
 
@@ -18,8 +19,9 @@
 #define MAX_PARTS     64 /* primitives of the car */
 #define WIPERS        2
 #define MAX_RATE_MM_H 200
-#define MAX_DRIPS     512 /* pieces of edges from which rain drips */
-#define MAX_CAR_DRIPS 128 /* and of the car's */
+#define MAX_DRIPS     512   /* pieces of edges from which rain drips at a time ... */
+#define MAX_CAR_DRIPS 128   /* ... and of the car's */
+#define MAX_PLACES    16384 /* of the street's edges in all */
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];
@@ -76,7 +78,8 @@ typedef struct drive {
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MAX_OCCLUDERS];
-    virga_drip_site drips[MAX_DRIPS + MAX_CAR_DRIPS]; /* found in the street's mesh; behind them the car's, now */
+    drip_places drip_places;                          /* found in the street's mesh */
+    virga_drip_site drips[MAX_DRIPS + MAX_CAR_DRIPS]; /* those near the camera; behind them the car's, now */
     virga_drip_site car_drips[MAX_CAR_DRIPS];         /* in the car's own frame */
     uint32_t drip_count, car_drip_count;
     double car_top_m;           /* over its origin */
@@ -99,7 +102,7 @@ void close_window(drive *d);
 
 /* world.c: loads street, car and sky, finds the edges that drip, and draws all into the stage's color and depth. */
 bool load_world(drive *d);
-void move_car_drips(drive *d);
+void move_drips(drive *d);
 void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps, const virga_walls *walls);
 void unload_world(drive *d);
 

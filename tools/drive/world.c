@@ -11,6 +11,7 @@
 
 #define DRIPS_HALF_M 48.0 /* of the square in which edges drip */
 #define GUTTER_M     2.5  /* where water runs farther, a gutter takes it */
+#define AHEAD_M      6.0  /* before the camera, where drips are seen best */
 #define DRIP_STEP_S  0.01 /* over which a velocity is taken */
 
 static bool add_boxes(drive *d, const boxes *b, const host_material *material, host_mesh *mesh)
@@ -29,14 +30,20 @@ static bool find_drips(drive *d, const host_vertex *vertices, const uint32_t *in
     const double half_m = 0.5 * (double)fmaxf(street->high[0] - street->low[0], street->high[2] - street->low[2]);
     host_drip_edges *edges = host_drip_edges_begin(middle, fmin(half_m, DRIPS_HALF_M));
     host_eave *eaves = NULL;
-    uint32_t found = 0, eave_count = 0;
-    if (!edges)
-        return host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
-    host_drip_edges_add(edges, street, vertices, indices);
-    d->drip_count = host_drip_edges_find(edges, GUTTER_M, d->drips, MAX_DRIPS, &found, &eaves, &eave_count);
+    virga_drip_site *places = malloc(MAX_PLACES * sizeof *places);
+    uint32_t found = 0, eave_count = 0, count = UINT32_MAX;
+    if (edges && places) {
+        host_drip_edges_add(edges, street, vertices, indices);
+        count = host_drip_edges_find(edges, GUTTER_M, places, MAX_PLACES, &found, &eaves, &eave_count);
+    }
     host_drip_edges_end(edges);
     free(eaves);
-    return d->drip_count != UINT32_MAX || host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
+    if (count == UINT32_MAX) {
+        free(places);
+        return host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
+    }
+    return drip_places_create(places, count, MAX_DRIPS, &d->drip_places) ||
+           host_fail(d->error, sizeof d->error, "no memory for the edges that drip");
 }
 
 /* Of the car's outside. What is never drawn is no edge, and wheels are where they are not at rest. */
@@ -76,8 +83,8 @@ static bool load_car(drive *d)
     return ok;
 }
 
-/* The places move along with the car; below a bridge its film only runs off. */
-void move_car_drips(drive *d)
+/* Those of the car move along with it; below a bridge its film only runs off. */
+static void move_car_drips(drive *d)
 {
     float now[12], before[12];
     virga_walls walls;
@@ -91,6 +98,16 @@ void move_car_drips(drive *d)
     host_drip_model_move(d->car_drips, d->car_drip_count, now, before, DRIP_STEP_S, sites);
     virga_rain_walls_get(virga_scene_rain(d->rain), &walls);
     host_heights_shade(&d->heights, d->car.position_m[1] + d->car_top_m, walls.slant, sites, d->car_drip_count);
+}
+
+/* Those of the street are chosen for what is ahead: the car has passed the others soon. */
+void move_drips(drive *d)
+{
+    double ahead_m[3];
+    for (int axis = 0; axis < 3; axis++)
+        ahead_m[axis] = d->camera.position_m[axis] + AHEAD_M * d->camera.forward[axis];
+    d->drip_count = drip_places_choose(&d->drip_places, ahead_m, d->drips);
+    move_car_drips(d);
 }
 
 static bool load_street(drive *d)
@@ -190,4 +207,5 @@ void unload_world(drive *d)
         host_environment_destroy(&d->device, &d->environment);
     track_free(&d->track);
     host_heights_free(&d->heights);
+    drip_places_free(&d->drip_places);
 }
