@@ -268,6 +268,31 @@ has 'lights       2' "$work/check"
 has '2 wipers' "$work/check"
 has 'phase_s: 0.4' "$work/grown.yaml"
 
+# ---- drops are lit by what a lamp lights around them: of a lamp that has been put out nothing is left
+
+sed -e 's/intensity_w_sr: 6/intensity_w_sr: 300/' -e 's/^frames:/environment: {intensity: 0.01}\n&/' "$work/rain.yaml" \
+    >"$work/lamp.yaml"
+view lamp put_out <<'END' || { cat "$work/put_out.err"; fail "put out"; }
+downscale 2
+step 3
+shot lit.exr
+set lights.0.intensity_w_sr 0
+wait 2
+shot put_out.exr
+quit
+END
+view lamp never_lit <<'END' || { cat "$work/never_lit.err"; fail "never lit"; }
+downscale 2
+set lights.0.intensity_w_sr 0
+step 3
+wait 2
+shot never_lit.exr
+quit
+END
+oiiotool "$work/put_out.exr" "$work/never_lit.exr" --fail 0 --diff >"$work/diff" 2>&1 ||
+    { cat "$work/diff"; fail "a lamp that was put out is seen in drops"; }
+oiiotool "$work/lit.exr" "$work/never_lit.exr" --fail 0.01 --diff >/dev/null 2>&1 && fail "a lamp lights nothing"
+
 # ---- real keys
 
 if command -v xdotool >/dev/null; then

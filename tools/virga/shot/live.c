@@ -16,12 +16,12 @@ static bool follow_scene(shot *s, char *error, size_t error_size)
         return false;
     if (s->path.far_m <= s->path.near_m)
         s->path.far_m = 2 * s->path.near_m; /* until the other of the two has been changed as well */
-    shot_load_lights(s);
     return true;
 }
 
 bool shot_live_light(shot *s, double dt_s, char *error, size_t error_size)
 {
+    shot_load_lights(s); /* as a user has just set them */
     return shot_find_light(s, s->camera_time_s + (s->began ? dt_s : 0), error, error_size);
 }
 

@@ -27,6 +27,8 @@ typedef struct shot_place {
     bool free; /* the free camera has been somewhere: */
     double free_m[3];
     float free_sh[9][3];
+    virga_light lamps[VIRGA_MAX_LIGHTS]; /* for which all of it was found */
+    uint32_t lamp_count;
 } shot_place;
 
 /* ---- the path */
@@ -194,10 +196,25 @@ static bool light_of_free_camera(shot *s, double time_s, char *error, size_t err
     return true;
 }
 
+/* A user can change lamps: what they light has to be found anew. Those that drive are not in it. */
+static void follow_lamps(const shot *s, shot_place *place)
+{
+    const uint32_t count = s->scene->light_count;
+    const size_t size = count * sizeof place->lamps[0];
+    if (place->lamp_count == count && memcmp(place->lamps, s->lighting.lights, size) == 0)
+        return;
+    for (uint32_t i = 0; i < place->point_count; i++)
+        place->points[i].found = false;
+    place->free = false;
+    memcpy(place->lamps, s->lighting.lights, size);
+    place->lamp_count = count;
+}
+
 bool shot_find_light(shot *s, double time_s, char *error, size_t error_size)
 {
     if (!s->place)
         return true;
+    follow_lamps(s, s->place);
     if (s->eye_free)
         return light_of_free_camera(s, time_s, error, error_size);
     s->place->free = false;
