@@ -1,4 +1,4 @@
-/* bench.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window, and wheels on it. */
+/* bench.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window, and wheels and feet on it. */
 #include "bench/bench.h"
 #include "effect.h"
 #include "options.h"
@@ -105,7 +105,7 @@ static bool measure(bench *b, uint32_t cells)
     return true;
 }
 
-/* ---- wheels */
+/* ---- wheels and feet */
 
 #define SPEED_M_S (60 / 3.6)
 
@@ -123,24 +123,49 @@ static void place_wheels(uint32_t count, uint32_t step, virga_wheel *wheels)
     }
 }
 
-static bool step_wheels(bench *b, virga_scene *scene, uint32_t count, uint32_t number)
+#define STRIDE_STEPS 60 /* a foot treads once in a second, at 0.7 m/s */
+#define STAND_STEPS  36
+#define TREAD_STEPS  6
+#define TREAD_M_S    0.7
+#define LIFT_M       (TREAD_STEPS * TREAD_M_S / 60)
+
+/* Eight in a row, each at a time of its own, so that frames are alike. */
+static void place_feet(uint32_t count, uint32_t step, virga_foot *feet)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t time = (step + 37 * i) % STRIDE_STEPS, left = STRIDE_STEPS - time;
+        const bool treads = left <= TREAD_STEPS;
+        feet[i] = virga_default_foot();
+        feet[i].id = i;
+        feet[i].sole_m[0] = 1.4 * ((step + 37 * i) / STRIDE_STEPS % 4) + 6 * (i / 8 - 4.0);
+        feet[i].sole_m[1] = time < STAND_STEPS ? 0 : treads ? left * TREAD_M_S / 60 : LIFT_M;
+        feet[i].sole_m[2] = 0.5 * (i % 8);
+        feet[i].velocity_m_s[1] = treads || time == 0 ? (float)-TREAD_M_S : 0;
+    }
+}
+
+static bool step_contacts(bench *b, virga_scene *scene, bool walks, uint32_t count, uint32_t number)
 {
     VkCommandBuffer cmd;
     double whole;
     virga_wheel wheels[VIRGA_GROUND_MAX_CONTACTS];
+    virga_foot feet[VIRGA_GROUND_MAX_CONTACTS];
     place_wheels(count, number, wheels);
+    place_feet(count, number, feet);
     const virga_scene_frame frame = {.dt_s = 1.0 / 60,
                                      .camera_m = {0, 1.7, 0},
                                      .occluders = &b->floor,
                                      .occluder_count = 1,
                                      .wheels = wheels,
-                                     .wheel_count = count};
+                                     .wheel_count = walks ? 0 : count,
+                                     .feet = feet,
+                                     .foot_count = walks ? count : 0};
     return (bench_begin(b, &cmd) && virga_scene_record(scene, cmd, &frame) >= 0 && bench_submit(b, &whole)) ||
            options_complain("bench", "a step failed");
 }
 
-/* Of a car, and of sixteen. */
-static bool measure_wheels(bench *b, uint32_t count)
+/* Wheels of a car, and of sixteen; feet of two people, and of 32. Without any the pass is not recorded. */
+static bool measure_contacts(bench *b, bool walks, uint32_t count)
 {
     double contact[BENCH_RUNS], flight[BENCH_RUNS];
     virga_scene_def def = virga_default_scene_def();
@@ -149,13 +174,13 @@ static bool measure_wheels(bench *b, uint32_t count)
     virga_rain_settings rain = virga_default_rain_settings();
     def.with_ground = def.with_splash = def.with_contacts = true;
     if (virga_scene_create(b->context, &def, &scene) < 0)
-        return options_complain("bench", "no ground with wheels could be made");
+        return options_complain("bench", "no ground with wheels and feet could be made");
     ground.start_water_mm = 4;
     rain.rate_mm_h = 0;
     bool good = virga_ground_set(virga_scene_ground(scene), &ground) == VIRGA_OK &&
                 virga_rain_set(virga_scene_rain(scene), &rain) == VIRGA_OK;
     for (int i = -SETTLE_STEPS; good && i < BENCH_RUNS; i++) {
-        good = step_wheels(b, scene, count, (uint32_t)(i + SETTLE_STEPS));
+        good = step_contacts(b, scene, walks, count, (uint32_t)(i + SETTLE_STEPS));
         if (i < 0)
             continue;
         contact[i] = bench_pass_ms(b, "ground.contact");
@@ -165,9 +190,9 @@ static bool measure_wheels(bench *b, uint32_t count)
     virga_splash_stats_get(virga_scene_splash(scene), &splash);
     virga_scene_destroy(&scene);
     if (good)
-        printf("%u wheels at 60 km/h on wet ground, %u droplets in the air\n  ground.contact   %8.3f ms\n"
+        printf("%u %s on wet ground, %u droplets in the air\n  ground.contact   %8.3f ms\n"
                "  splash.step      %8.3f ms\n",
-               count, splash.droplets_alive, bench_median(contact, BENCH_RUNS), bench_median(flight, BENCH_RUNS));
+               count, walks ? "feet that walk" : "wheels at 60 km/h", splash.droplets_alive, bench_median(contact, BENCH_RUNS), bench_median(flight, BENCH_RUNS));
     return good;
 }
 
@@ -180,11 +205,13 @@ static bool run(bench *b, const options *parsed)
     b->floor.material = VIRGA_MATERIAL_ASPHALT;
     for (size_t i = 0; good && !interrupt_requested() && i < sizeof sides / sizeof sides[0]; i++)
         good = measure(b, sides[i]);
-    return good && (interrupt_requested() || (measure_wheels(b, 4) && measure_wheels(b, 64)));
+    for (int i = 0; good && !interrupt_requested() && i < 4; i++)
+        good = measure_contacts(b, i > 1, i % 2 ? 64 : 4);
+    return good;
 }
 
 const tool_bench ground_bench = {
     .help = "landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain;\n"
-            "wheels at 60 km/h\n",
+            "wheels at 60 km/h, and feet that walk\n",
     .run = run,
 };
