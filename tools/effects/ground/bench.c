@@ -192,7 +192,8 @@ static bool measure_contacts(bench *b, bool walks, uint32_t count)
     if (good)
         printf("%u %s on wet ground, %u droplets in the air\n  ground.contact   %8.3f ms\n"
                "  splash.step      %8.3f ms\n",
-               count, walks ? "feet that walk" : "wheels at 60 km/h", splash.droplets_alive, bench_median(contact, BENCH_RUNS), bench_median(flight, BENCH_RUNS));
+               count, walks ? "feet that walk" : "wheels at 60 km/h", splash.droplets_alive,
+               bench_median(contact, BENCH_RUNS), bench_median(flight, BENCH_RUNS));
     return good;
 }
 
