@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "plate_fixture.h"
+#include "texture.h"
 
 #include <virga/virga.h>
 
@@ -203,12 +204,100 @@ static void wet_cloth_is_a_layer_that_scatters_half_as_much(void **state)
     }
 }
 
+/* ---- what is below */
+
+/* Ground and, 3 m above it, cloth that covers all of its sky. */
+static bool add_roof(scene *s, host_mesh *mesh, float high_m, float half_m, float sky_passes)
+{
+    static const uint32_t indices[6] = {0, 2, 1, 0, 3, 2};
+    const host_material material = {.roughness = 1,
+                                    .sky_passes = sky_passes,
+                                    .base_color = {0.5f, 0.5f, 0.5f, 1},
+                                    .base_texture = -1,
+                                    .emissive_texture = -1,
+                                    .two_sided = true};
+    host_vertex v[4] = {{.uv = {0}}};
+    for (int i = 0; i < 4; i++) {
+        v[i].position[0] = i == 1 || i == 2 ? half_m : -half_m;
+        v[i].position[1] = high_m;
+        v[i].position[2] = i > 1 ? half_m : -half_m;
+        v[i].normal[1] = 1;
+    }
+    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error) &&
+           host_renderer_add(s->renderer, mesh, s->base.error, sizeof s->base.error);
+}
+
+/* Of the ground below cloth that lets such a part through, under a white sky. */
+static double seen_below(scene *s, float sky_passes)
+{
+    static const host_camera_key down = {.position_m = {0, 2, 4}, .look_at_m = {0, 0, 0}};
+    static const host_camera_path below = {.keys = &down, .count = 1, .fov_deg = 45, .near_m = 0.1, .far_m = 100};
+    host_device *device = &s->base.device;
+    host_environment_def white = {.intensity = 1};
+    host_renderer *before = s->renderer;
+    host_environment sky;
+    host_mesh ground, roof;
+    host_camera camera;
+    VkCommandBuffer cmd;
+    char *error = s->base.error;
+    const size_t size = sizeof s->base.error;
+    for (int c = 0; c < 3; c++)
+        white.zenith[c] = white.horizon[c] = white.ground[c] = 1;
+    assert_true(host_renderer_create(device, &s->renderer, error, size));
+    assert_true(add_roof(s, &ground, 0, 40, 0) && add_roof(s, &roof, 3, 60, sky_passes));
+    assert_true(host_environment_create(device, &white, &sky, error, size));
+    assert_true(host_renderer_set_environment(s->renderer, &sky, error, size));
+    host_camera_at(&below, 0, SIDE, SIDE, NULL, &camera);
+    host_accumulator_reset(&s->sums);
+    assert_true(host_begin_frame(device, &cmd, error, size));
+    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
+    host_target_begin_layer(&s->target, cmd);
+    host_target_end_layer(&s->target, cmd);
+    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));
+    host_accumulator_copy_out(&s->sums, cmd, &s->target);
+    assert_true(host_submit(device, error, size) && host_wait(device, error, size));
+    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    host_renderer_destroy(&s->renderer);
+    s->renderer = before;
+    host_environment_destroy(device, &sky);
+    host_mesh_destroy(device, &ground);
+    host_mesh_destroy(device, &roof);
+    return (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+}
+
+/* The sky's part T, and of what is hidden a quarter as bright as it is there: T + T (1 - T) / 4 (sky_share of scene.frag).
+ * To 0.035, as there are 40 directions. Below what lets nothing through a bit is left on purpose. */
+static void the_sky_comes_through_cloth(void **state)
+{
+    static const double passes[] = {0.1, 0.2, 0.35, 0.6};
+    const double closed = seen_below(*state, 0), open = seen_below(*state, 1);
+    printf("closed %.4f, open %.4f\n", closed, open);
+    assert_true(open > 0.4 && closed < 0.2 * open);
+    for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++) {
+        const double part = seen_below(*state, (float)passes[i]) / open;
+        const double expected = passes[i] + 0.25 * passes[i] * (1 - passes[i]);
+        printf("%.2f passes: %.4f, expected %.4f\n", passes[i], part, expected);
+        assert_float_equal(part, expected, 0.035);
+    }
+}
+
+/* Linear, and without what is transparent: sRGB 188 is 0.5029, white 1. */
+static void a_pictures_light_is_linear(void **state)
+{
+    (void)state;
+    uint8_t texels[3][4] = {{188, 188, 188, 255}, {255, 255, 255, 255}, {0, 90, 200, 0}};
+    const host_picture picture = {.width = 3, .height = 1, .texels = texels[0]};
+    assert_float_equal(host_picture_light(&picture), (0.5029 + 1) / 2, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_behind_dry_cloth_shines_through),
         cmocka_unit_test(the_rest_comes_back),
         cmocka_unit_test(wet_cloth_is_a_layer_that_scatters_half_as_much),
+        cmocka_unit_test(the_sky_comes_through_cloth),
+        cmocka_unit_test(a_pictures_light_is_linear),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

@@ -24,8 +24,9 @@ typedef struct host_material {
     float base_color[4]; /* linear, times the texture's */
     float emissive[3];   /* radiance, times the texture's */
     float roughness, metallic;
-    float passes; /* [0; 1] part of its diffuse light that comes out of the other side: of cloth, and of leaves */
-    float cutoff; /* (mask) */
+    float passes;     /* [0; 1] part of its diffuse light that comes out of the other side: of cloth, and of leaves */
+    float sky_passes; /* [0; 1] part of the sky's light that comes through, its colours' mean: `passes` of what it is */
+    float cutoff;     /* (mask) */
     host_alpha alpha;
     bool two_sided;
     int32_t base_texture;     /* into host_mesh::textures, or -1 */

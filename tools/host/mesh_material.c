@@ -191,6 +191,9 @@ static void read_material(host_mesh_build *build, const struct aiMaterial *in, h
     out->base_texture = find_texture(build, in, aiTextureType_BASE_COLOR);
     if (out->base_texture < 0)
         out->base_texture = find_texture(build, in, aiTextureType_DIFFUSE);
+    out->sky_passes = out->passes * (out->base_color[0] + out->base_color[1] + out->base_color[2]) / 3;
+    if (out->passes > 0 && out->base_texture >= 0)
+        out->sky_passes *= host_picture_light(&build->pictures[out->base_texture]);
     out->emissive_texture = find_texture(build, in, aiTextureType_EMISSIVE);
     /* Roughness and metallic from a texture are its mean. Assimp has glTF's texture as "unknown". */
     int32_t packed = find_texture(build, in, aiTextureType_UNKNOWN);

@@ -225,8 +225,22 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
 
 enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2, DRAW_GROUND = 4, DRAW_NO_GROUND = 8, DRAW_MOVING = 16 };
 
-/* Draws everything but glass into a depth map: of one direction of the sky, or of the rain. */
-static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float map_from_world[16], int parts)
+/* Thin cloth and leaves let a part T of the sky's light through (KHR_materials_diffuse_transmission: T of the irradiance
+ * comes out below, the same to all sides; under an even sky that is the sky itself, T times as bright). A depth map has
+ * all or nothing, so they are left out of the maps of a share T of the directions: the k-th whose k sqrt(3) has a
+ * fractional part below T. Such multiples are even over each part of the sky (Weyl; sqrt(3), as the directions turn by
+ * the golden angle and another ratio must not repeat it). It is T to 0.045, by adding up
+ * the cosines of the 40 directions for each T. */
+static double share_number(uint32_t direction)
+{
+    const double all = (direction + 0.5) * 1.7320508075688772;
+    return all - floor(all);
+}
+
+/* Draws everything but glass into a depth map, of one direction of the sky or of the rain; not what lets more than the
+ * share `light` of the sky's light through. */
+static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float map_from_world[16], int parts,
+                     double light)
 {
     const host_skylight *s = &r->skylight;
     const VkDeviceSize offset = 0;
@@ -243,6 +257,7 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, const float ma
             const host_primitive *primitive = &mesh->primitives[i];
             const host_material *material = &mesh->materials[primitive->material];
             if (!is_drawn_by(material, parts & DRAW_CUTOUTS ? HOST_PIPELINE_CUTOUT : HOST_PIPELINE_DEPTH) ||
+                (double)material->sky_passes > light ||
                 ((parts & DRAW_NO_LEAVES) && primitive->surface == VIRGA_MATERIAL_LEAVES) ||
                 (parts & (primitive->ground ? DRAW_NO_GROUND : DRAW_GROUND)))
                 continue;
@@ -266,8 +281,8 @@ static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_ca
     host_skylight_begin(&r->skylight, cmd);
     for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
         host_skylight_begin_map(&r->skylight, cmd, i);
-        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], 0);
-        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], DRAW_CUTOUTS);
+        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], 0, share_number(i));
+        draw_map(r, cmd, r->skylight.gpu.map_from_world[i], DRAW_CUTOUTS, share_number(i));
         host_skylight_end_map(&r->skylight, cmd);
     }
     host_skylight_gather(&r->skylight, cmd);
@@ -286,7 +301,7 @@ static void update_shelter(host_renderer *r, VkCommandBuffer cmd, const host_cam
     host_label_begin(r->device, cmd, "shelter");
     host_shelter_begin(s, cmd, r->skylight.pass);
     if (r->has_walls)
-        draw_map(r, cmd, s->map_from_world, DRAW_NO_LEAVES); /* these let rain through, soon as drips */
+        draw_map(r, cmd, s->map_from_world, DRAW_NO_LEAVES, 1); /* these let rain through, soon as drips */
     host_shelter_end(s, cmd);
     host_label_end(r->device, cmd);
 }
@@ -356,7 +371,7 @@ static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_cam
         host_contact_begin(&r->contact, cmd, r->skylight.pass, (host_contact_map)i);
         for (uint32_t look = 0; look < host_contact_looks((host_contact_map)i); look++) {
             host_contact_look(&r->contact, (host_contact_map)i, look, map_from_world);
-            draw_map(r, cmd, map_from_world, parts[i]);
+            draw_map(r, cmd, map_from_world, parts[i], 1);
         }
         host_contact_end(cmd);
     }

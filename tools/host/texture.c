@@ -113,6 +113,19 @@ static void fill_table(void)
     }
 }
 
+float host_picture_light(const host_picture *picture)
+{
+    double sum = 0, weight = 0;
+    fill_table();
+    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++) {
+        const uint8_t *texel = &picture->texels[4 * i];
+        const double light = linear_of[texel[0]] + linear_of[texel[1]] + linear_of[texel[2]];
+        sum += (double)texel[3] * light / 3;
+        weight += texel[3];
+    }
+    return weight > 0 ? (float)(sum / weight) : 0;
+}
+
 static uint8_t srgb_of(float linear)
 {
     float s = linear <= 0.0031308f ? linear * 12.92f : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;

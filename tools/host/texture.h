@@ -29,6 +29,8 @@ float host_picture_alpha(const host_picture *picture, float u, float v);
 
 /* Mean of each channel in [0; 1], as stored. */
 void host_picture_mean(const host_picture *picture, float mean[4]);
+/* Mean of red, green and blue of a picture in sRGB, linear, over what is not transparent. */
+float host_picture_light(const host_picture *picture);
 
 void host_picture_free(host_picture *picture);
 
