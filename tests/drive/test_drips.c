@@ -72,8 +72,8 @@ static void those_that_show_the_most_drip(void **state)
     drip_places_free(&places);
 }
 
-/* Along the street: each slot has one place, what stays keeps its slot, and what comes has a catchment like that of what
- * leaves. A camera that stands changes nothing. */
+/* Along the street: each slot has one place, what stays keeps its slot, and what comes has a catchment like that of
+ * what leaves. A camera that stands changes nothing. */
 static void what_stays_keeps_its_slot(void **state)
 {
     (void)state;

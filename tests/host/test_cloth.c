@@ -265,8 +265,8 @@ static double seen_below(scene *s, float sky_passes)
     return (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2)];
 }
 
-/* The sky's part T, and of what is hidden a quarter as bright as it is there: T + T (1 - T) / 4 (sky_share of scene.frag).
- * To 0.035, as there are 40 directions. Below what lets nothing through a bit is left on purpose. */
+/* The sky's part T, and of what is hidden a quarter as bright as it is there: T + T (1 - T) / 4 (sky_share of
+ * scene.frag). To 0.035, as there are 40 directions. Below what lets nothing through a bit is left on purpose. */
 static void the_sky_comes_through_cloth(void **state)
 {
     static const double passes[] = {0.1, 0.2, 0.35, 0.6};

@@ -7,7 +7,7 @@
 #define NEAREST_M 2.0 /* what is nearer shows no more: its drops leave the picture sooner */
 #define MOVED_M   1.0
 #define SMALLEST  0.5 /* catchment of the new place, of the old one's */
-#define KEPT      1.5 /* what has a slot counts as so much more, so that places do not change to and fro */
+#define KEPT      1.5 /* what has a slot counts as so much more, so that places do not change back at once */
 
 bool drip_places_create(virga_drip_site *all, uint32_t count, uint32_t slots, drip_places *places)
 {

@@ -24,8 +24,9 @@ typedef struct drip_places {
 bool drip_places_create(virga_drip_site *all, uint32_t count, uint32_t slots, drip_places *places);
 void drip_places_free(drip_places *places); /* accepts one that is all zero */
 
-/* Chooses for a camera at `eye_m` if it has moved on by a metre, and writes the chosen to `sites`, slot by slot. Returns
- * how many: all that there are, or all slots. What stays chosen keeps its slot, as the water of a place is its slot's. */
+/* Chooses for a camera at `eye_m` if it has moved on by a metre, and writes the chosen to `sites`, slot by slot.
+ * Returns how many: all that there are, or all slots. What stays chosen keeps its slot, as the water of a place is its
+ * slot's. */
 uint32_t drip_places_choose(drip_places *places, const double eye_m[3], virga_drip_site *sites);
 
 #endif

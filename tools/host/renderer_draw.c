@@ -225,12 +225,12 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
 
 enum { DRAW_CUTOUTS = 1, DRAW_NO_LEAVES = 2, DRAW_GROUND = 4, DRAW_NO_GROUND = 8, DRAW_MOVING = 16 };
 
-/* Thin cloth and leaves let a part T of the sky's light through (KHR_materials_diffuse_transmission: T of the irradiance
- * comes out below, the same to all sides; under an even sky that is the sky itself, T times as bright). A depth map has
- * all or nothing, so they are left out of the maps of a share T of the directions: the k-th whose k sqrt(3) has a
- * fractional part below T. Such multiples are even over each part of the sky (Weyl; sqrt(3), as the directions turn by
- * the golden angle and another ratio must not repeat it). It is T to 0.045, by adding up
- * the cosines of the 40 directions for each T. */
+/* Thin cloth and leaves let a part T of the sky's light through (KHR_materials_diffuse_transmission: T of the
+ * irradiance comes out below, the same to all sides; under an even sky that is the sky itself, T times as bright). A
+ * depth map has all or nothing, so they are left out of the maps of a share T of the directions: the k-th whose k
+ * sqrt(3) has a fractional part below T. Such multiples are even over each part of the sky (Weyl; sqrt(3), as the
+ * directions turn by the golden angle and another ratio must not repeat it). It is T to 0.045, by adding up the cosines
+ * of the 40 directions for each T. */
 static double share_number(uint32_t direction)
 {
     const double all = (direction + 0.5) * 1.7320508075688772;
