@@ -458,10 +458,10 @@ static void put_far_lamp(shot *s)
 
 /* A cap of the height h, in radii of its base, turns a ray that crosses it x radii from its middle by 2 h (n - 1) x
  * towards the middle. Where the opening sees all of the drop, a pixel in the direction d shows a lamp in the direction
- * L at x = (d - L) / (2 h (n - 1)): once, if that is on the drop. So the lamp becomes a disc of one light, with a radius
- * of 2 h (n - 1) rad. Over the inner two thirds of it the light must not vary by more than 12 % (standard deviation);
- * it was 18 % when the parts of the picture that samples show did not meet. A part is wider than it is tall, so up to a
- * fifth of the light comes to lie beside that. */
+ * L at x = (d - L) / (2 h (n - 1)): once, if that is on the drop. So the lamp becomes a disc of one light, with a
+ * radius of 2 h (n - 1) rad. Over the inner two thirds of it the light must not vary by more than 12 % (standard
+ * deviation); it was 18 % when the parts of the picture that samples show did not meet. A part is wider than it is
+ * tall, so up to a fifth of the light comes to lie beside that. */
 static void the_disc_of_a_lamp_has_no_stripes(void **state)
 {
     (void)state;

@@ -6,11 +6,11 @@
 // 1), v / height (rows - 1)), they are those around floor(g), and with t = g - floor(g) their weights are (1 - t.x)(1 -
 // t.y), t.x (1 - t.y), (1 - t.x) t.y and t.x t.y: bilinear, so a drop that crosses a line of the mesh does not jump.
 //
-// A flat cap shows what is near the eye's ray only, and the rays to the points of the mesh differ: a lamp is elsewhere in
-// each of the four textures, or in none. With h the cap's height in radii of its base, a ray that crosses the base at x
-// radii is turned by 2 h (n - 1) x towards the middle. In tangents along the pane, the drop shows at x what is in the
-// direction d - 2 h (n - 1) x, d the eye's ray to it; and the texture of a point that the eye sees along d' shows that
-// at
+// A flat cap shows what is near the eye's ray only, and the rays to the points of the mesh differ: a lamp is elsewhere
+// in each of the four textures, or in none. With h the cap's height in radii of its base, a ray that crosses the base
+// at x radii is turned by 2 h (n - 1) x towards the middle. In tangents along the pane, the drop shows at x what is in
+// the direction d - 2 h (n - 1) x, d the eye's ray to it; and the texture of a point that the eye sees along d' shows
+// that at
 //
 //     x' = x + (d' - d) / (2 h (n - 1)).
 //
