@@ -82,6 +82,9 @@ static const char *missing_format(VkPhysicalDevice physical)
         {VK_FORMAT_R32G32B32A32_SFLOAT,
          VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
          "blending into R32G32B32A32_SFLOAT is not supported"},
+        {VK_FORMAT_R32G32_SFLOAT,
+         VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+         "blending into R32G32_SFLOAT is not supported"},
         {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
          "D32_SFLOAT cannot be drawn to and sampled"},
     };

@@ -23,7 +23,7 @@ layout(location = 0) out VALUE out_sum;
 void main()
 {
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
-    // The same bits on every device and as a CPU would add them.
+    // The same bits on every device that blends floats of 32 bits as a CPU adds them.
     precise VALUE value = texelFetch(drawn, pixel, 0).PARTS;
     [[dont_unroll]] for (uint i = 0u; i < add.is_weighed; i++)
         value *= weights[uint(pixel.y) * add.width + uint(pixel.x)];
