@@ -28,7 +28,6 @@
 #include "glass/nodes.glsl"
 
 #define ROOT_3 1.7320508
-#define WATER  1.333
 
 layout(location = 0) out vec2 local;       // in radii of the base; (point) in pixels
 layout(location = 1) flat out vec4 tile;   // xy: corner of the first texture in the image; zw: weights along u and v

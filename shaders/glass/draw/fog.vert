@@ -14,7 +14,6 @@ layout(location = 14) flat out vec4 mist_grid; // as in mist.vert
 
 // Estimates: what droplets show of all the world behind them, by rays that leave at their rims, and what they reflect
 // to the eye of the light on its side; a room behind a pane has so much of the light outside.
-#define WATER 1.333
 #define THROUGH 0.95 // as in fog.frag
 #define TAPS 16
 #define AROUND 0.12

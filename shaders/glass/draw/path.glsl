@@ -1,6 +1,5 @@
 // path.glsl - rays from the eye through pane and water: where the light comes from.
 
-#define WATER 1.333
 #define FRAME_M 0.001 // what is nearer to the pane is part of it: a frame
 #define EDGE_STEPS 8  // bisection steps towards an edge
 

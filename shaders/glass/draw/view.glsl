@@ -12,6 +12,8 @@ layout(scalar, set = 0, binding = 0) uniform Picture
     virga_glass_picture_gpu look;
 };
 
+#define WATER 1.333 // its refractive index
+
 #define DENSITY_GOTO 0u
 #define DENSITY_BLINN 1u
 #define DENSITY_MURAKAMI 2u
