@@ -91,6 +91,28 @@ static inline int fixture_tear_down(fixture *f)
     return wrong ? -1 : 0;
 }
 
+/* A picture of the plate alone, in one sub-frame. */
+static inline bool fixture_plate(fixture *f, host_renderer *renderer, host_target *target, host_accumulator *sums,
+                                 const host_camera *camera, host_drawn *picture)
+{
+    host_device *device = &f->device;
+    VkCommandBuffer cmd;
+    const size_t size = sizeof f->error;
+    host_accumulator_reset(sums);
+    if (!host_begin_frame(device, &cmd, f->error, size) ||
+        !host_renderer_plate(renderer, cmd, target, camera, camera, f->error, size))
+        return false;
+    host_target_begin_layer(target, cmd);
+    host_target_end_layer(target, cmd);
+    if (!host_accumulator_add(sums, cmd, target, false, f->error, size))
+        return false;
+    host_accumulator_copy_out(sums, cmd, target);
+    if (!host_submit(device, f->error, size) || !host_wait(device, f->error, size))
+        return false;
+    host_accumulator_finish(sums, target, picture);
+    return true;
+}
+
 /* The exit code of main, from the number of failed cases: cmocka does not count the teardown of a group. */
 static inline int fixture_result(int failed)
 {

@@ -92,8 +92,6 @@ static int tear_down(void **state)
 static void look(scene *s, double lamp_z, bool wet, double seen[3])
 {
     host_camera camera;
-    VkCommandBuffer cmd;
-    host_device *device = &s->base.device;
     char *error = s->base.error;
     const size_t size = sizeof s->base.error;
     virga_walls walls = {.spread = 0};
@@ -103,16 +101,8 @@ static void look(scene *s, double lamp_z, bool wet, double seen[3])
             walls.rows[row][i] = (virga_wall_gpu){.wet = 1};
     host_renderer_set_lights(s->renderer, &lamp, 1);
     host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
-    host_accumulator_reset(&s->sums);
     assert_true(host_renderer_set_walls(s->renderer, wet ? &walls : NULL, error, size));
-    assert_true(host_begin_frame(device, &cmd, error, size));
-    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
-    host_target_begin_layer(&s->target, cmd);
-    host_target_end_layer(&s->target, cmd);
-    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));
-    host_accumulator_copy_out(&s->sums, cmd, &s->target);
-    assert_true(host_submit(device, error, size) && host_wait(device, error, size));
-    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
     for (int c = 0; c < 3; c++)
         seen[c] = (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2) + c];
 }
@@ -238,7 +228,6 @@ static double seen_below(scene *s, float sky_passes)
     host_environment sky;
     host_mesh ground, roof;
     host_camera camera;
-    VkCommandBuffer cmd;
     char *error = s->base.error;
     const size_t size = sizeof s->base.error;
     for (int c = 0; c < 3; c++)
@@ -248,15 +237,7 @@ static double seen_below(scene *s, float sky_passes)
     assert_true(host_environment_create(device, &white, &sky, error, size));
     assert_true(host_renderer_set_environment(s->renderer, &sky, error, size));
     host_camera_at(&below, 0, SIDE, SIDE, NULL, &camera);
-    host_accumulator_reset(&s->sums);
-    assert_true(host_begin_frame(device, &cmd, error, size));
-    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
-    host_target_begin_layer(&s->target, cmd);
-    host_target_end_layer(&s->target, cmd);
-    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));
-    host_accumulator_copy_out(&s->sums, cmd, &s->target);
-    assert_true(host_submit(device, error, size) && host_wait(device, error, size));
-    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
     host_renderer_destroy(&s->renderer);
     s->renderer = before;
     host_environment_destroy(device, &sky);

@@ -93,21 +93,11 @@ static int tear_down(void **state)
 static void draw(scene *s, const virga_walls *walls)
 {
     host_camera camera;
-    VkCommandBuffer cmd;
-    host_device *device = &s->base.device;
     char *error = s->base.error;
     const size_t size = sizeof s->base.error;
     host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
-    host_accumulator_reset(&s->sums);
     assert_true(host_renderer_set_walls(s->renderer, walls, error, size));
-    assert_true(host_begin_frame(device, &cmd, error, size));
-    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &camera, &camera, error, size));
-    host_target_begin_layer(&s->target, cmd);
-    host_target_end_layer(&s->target, cmd);
-    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, error, size));
-    host_accumulator_copy_out(&s->sums, cmd, &s->target);
-    assert_true(host_submit(device, error, size) && host_wait(device, error, size));
-    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
 }
 
 /* Rain along a line that goes so far towards the wall, per metre of fall. */
