@@ -282,16 +282,18 @@ static void streaks_keep_an_even_scene_even(void **state)
 
 #define STREAKED_DEG 35.0
 #define LAMP         2 /* half its width, px */
+#define LAMP_LIGHT   100.0f
 
-/* A lamp in the picture's middle, and nothing else. */
-static void put_lamp(shot *s)
+/* A lamp in the picture's middle, so many pixels wide, and nothing else. */
+static void put_lamp(shot *s, int side, float light)
 {
-    float *pixels = calloc(4ull * WIDTH * HEIGHT, sizeof *pixels);
+    const int width = (int)s->picture.width, height = (int)s->picture.height;
+    float *pixels = calloc(4ull * (size_t)width * (size_t)height, sizeof *pixels);
     REQUIRE(pixels);
-    for (int y = HEIGHT / 2 - LAMP; y < HEIGHT / 2 + LAMP; y++)
-        for (int x = WIDTH / 2 - LAMP; x < WIDTH / 2 + LAMP; x++)
-            for (int c = 0; c < 4; c++)
-                pixels[4 * (y * WIDTH + x) + c] = c == 3 ? 1 : 100;
+    for (int i = 0; i < 4 * side * side; i++) {
+        const int x = (width - side) / 2 + i / 4 % side, y = (height - side) / 2 + i / 4 / side;
+        pixels[4 * (y * width + x) + i % 4] = i % 4 == 3 ? 1 : light;
+    }
     shot_plate(s, pixels);
     free(pixels);
     memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
@@ -324,7 +326,7 @@ static double sum_ring(const float *pixels, double from_px, double to_px, bool n
         if (r >= from_px && r < to_px && (!near_rays || fabs(r * sin(turn)) < 3 * LAMP))
             sum += (double)pixels[4 * p];
     }
-    return sum / (4 * LAMP * LAMP * 100.0);
+    return sum / (4 * LAMP * LAMP * (double)LAMP_LIGHT);
 }
 
 /* All light of the streaks, to 0.1 %. By distance to 2.5 %, as the pixels at a ring's edges are in it or not; none is
@@ -337,7 +339,7 @@ static void a_starburst_has_the_light_of_its_streaks(void **state)
     for (int i = 1; i < 10; i++)
         assert_true(fabs(within(full * i / 10, full) - within_by_sum(full * i / 10, full)) < 1e-4);
     open_front(&s);
-    put_lamp(&s);
+    put_lamp(&s, 2 * LAMP, LAMP_LIGHT);
     s.settings.advancing_deg = 60;
     s.settings.receding_deg = (float)STREAKED_DEG;
     s.settings.starburst = (float)share;
@@ -442,20 +444,6 @@ static void it_is_the_mean_of_pinholes(void **state)
 
 enum { WIDE = 720, HIGH = 400, LAMP_PX = 3 };
 
-/* A lamp of a few pixels in the middle, and nothing else. */
-static void put_far_lamp(shot *s)
-{
-    float *pixels = calloc(4ull * WIDE * HIGH, sizeof *pixels);
-    REQUIRE(pixels);
-    for (int i = 0; i < 4 * LAMP_PX * LAMP_PX; i++) {
-        const int x = (WIDE - LAMP_PX) / 2 + i / 4 % LAMP_PX, y = (HIGH - LAMP_PX) / 2 + i / 4 / LAMP_PX;
-        pixels[4 * (y * WIDE + x) + i % 4] = i % 4 == 3 ? 1 : 1000;
-    }
-    shot_plate(s, pixels);
-    free(pixels);
-    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
-}
-
 /* A cap of the height h, in radii of its base, turns a ray that crosses it x radii from its middle by 2 h (n - 1) x
  * towards the middle. Where the opening sees all of the drop, a pixel in the direction d shows a lamp in the direction
  * L at x = (d - L) / (2 h (n - 1)): once, if that is on the drop. So the lamp becomes a disc of one light, with a
@@ -471,7 +459,7 @@ static void the_disc_of_a_lamp_has_no_stripes(void **state)
     s.settings.advancing_deg = 11;
     s.settings.receding_deg = 10;
     look(&s, (const double[2]){0, 0});
-    put_far_lamp(&s);
+    put_lamp(&s, LAMP_PX, 1000);
     shot_forget(&s);
     shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.002));
     const float *pixels = draw_front(&s, (opening){0.006, 0});
