@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define NEAREST_M 2.0 /* what is nearer shows no more: its drops leave the picture sooner */
-#define MOVED_M   1.0
+#define MOVED_M   1.0 /* the camera, until places are chosen anew */
 #define SMALLEST  0.5 /* catchment of the new place, of the old one's */
 #define KEPT      1.5 /* what has a slot counts as so much more, so that places do not change back at once */
 

@@ -8,9 +8,10 @@ layout(set = 0, binding = 16) uniform sampler2D scene_color;
 vec2 plate_size() { return vec2(textureSize(scene_color, 0)); }
 
 #ifndef PAPER
-// Set where samples are far apart: each is `pixels` from the next in both directions, and what it shows must meet what
-// the next one shows. A copy has as many rows as columns, so its texels are as wide as the picture is and not square.
-// One that is `pixels` wide across its narrow side leaves no gap; the copies above and below it are blended.
+// For includers that define FAR_APART: set where samples are far apart. Each is `pixels` from the next in both
+// directions, and what it shows must meet what the next one shows. A copy has as many rows as columns, so its texels
+// are as wide as the picture is and not square. One that is `pixels` wide across its narrow side leaves no gap; the
+// copies above and below it are blended.
 bool far_apart = false;
 
 // The mean over about `pixels` x `pixels` pixels of the picture.
