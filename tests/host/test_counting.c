@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "bench/model/block_cost.h"
+#include "bench/model/here.h"
 #include "bench/model/model.h"
 
 #include "plate_fixture.h"
@@ -222,6 +223,53 @@ static void a_modelled_time_is_that_of_pen_and_paper(void **state)
     close_pass(f, &p);
 }
 
+/* Here the parts of a pass add up, and it is timed in the frames that do not count it: the third, fifth, ... */
+static void a_pass_here_is_the_sum_of_its_work_and_is_timed(void **state)
+{
+    fixture *f = *state;
+    pass p;
+    model_pass passes[MODEL_MAX_PASSES];
+    const model_card kept = model_here;
+    uint32_t lanes, groups;
+    double sum = 0;
+    open_pass(f, &p);
+    assert_true(counting_time_calls(f->error, sizeof f->error));
+    for (int frame = 0; frame < 5; frame++)
+        run_pass(f, &p);
+    for (int i = 0; i < MODEL_WORKS; i++)
+        model_here.issue[i] = 1 + i;
+    model_here.memory_bytes_s = WORDS * 4;
+    model_here.call_s = 3;
+    assert_int_equal(model_passes(&model_here, passes), 1);
+    for (int i = 0; i < MODEL_WORKS; i++)
+        sum += passes[0].work[i] * (1 + i);
+    expect_trips(&lanes, &groups);
+    assert_true(passes[0].work[MODEL_LOADS] >= groups && passes[0].work[MODEL_START] == LANES / 8);
+    assert_float_equal(passes[0].total_s, sum * 1e-9 + 1 + 3, 1e-9);
+    assert_true(passes[0].measured_s > 1e-6 && passes[0].measured_s < 10);
+    model_here = kept;
+    close_pass(f, &p);
+}
+
+/* Kernels find what each kind of work takes: more than nothing for all, and less for a sum than for a root or load. */
+static void what_this_device_takes_is_found_by_kernels(void **state)
+{
+    fixture *f = *state;
+    const model_card kept = model_here;
+    host_target target = {0};
+    assert_true(host_target_create(&f->device, 640, 360, &target, f->error, sizeof f->error));
+    assert_true(counting_open(&f->device, f->error, sizeof f->error));
+    assert_true(counting_time_calls(f->error, sizeof f->error));
+    assert_true(model_here_measure(&f->device, &target, f->error, sizeof f->error));
+    assert_true(model_here.call_s > 0 && model_here.memory_bytes_s < 1e13);
+    assert_true(model_here.issue[MODEL_LOADS] > model_here.issue[MODEL_FULL]);
+    assert_true(model_here.issue[MODEL_SLOW] > model_here.issue[MODEL_FULL]);
+    assert_true(model_here.issue[MODEL_FRAGMENT] > 0);
+    model_here = kept;
+    counting_close(&f->device);
+    host_target_destroy(&f->device, &target);
+}
+
 static float operations(const uint32_t *code, size_t bytes, float *slow)
 {
     block_costs costs;
@@ -265,6 +313,7 @@ static void a_card_is_found_by_its_name(void **state)
     (void)state;
     assert_ptr_equal(model_card_find("desktop"), &model_desktop);
     assert_ptr_equal(model_card_find("handheld"), &model_handheld);
+    assert_ptr_equal(model_card_find("here"), &model_here);
     assert_null(model_card_find("phone"));
 }
 
@@ -293,6 +342,8 @@ int main(void)
         cmocka_unit_test(lanes_trips_and_bytes_are_the_shaders),
         cmocka_unit_test(results_are_the_same_with_and_without),
         cmocka_unit_test(a_modelled_time_is_that_of_pen_and_paper),
+        cmocka_unit_test(a_pass_here_is_the_sum_of_its_work_and_is_timed),
+        cmocka_unit_test(what_this_device_takes_is_found_by_kernels),
         cmocka_unit_test(a_product_and_a_sum_are_one_operation_unless_they_are_precise),
         cmocka_unit_test(a_quotient_by_a_constant_is_no_division),
         cmocka_unit_test(a_card_is_found_by_its_name),

@@ -1,6 +1,7 @@
 /* bench.c - the device of a bench, and its measurements. */
 #include "bench/bench.h"
 
+#include "bench/model/here.h"
 #include "options.h"
 #include "progress.h"
 
@@ -32,7 +33,8 @@ virga_context_def bench_context_def(const bench *b)
     if (b->model) {
         def.get_instance_proc_addr = counting_get;
         def.timings = false; /* on software Vulkan they come with barriers of their own, which no card has */
-        def.variants = b->variants ? b->variants : VIRGA_VARIANTS_GPU;
+        if (b->model != &model_here && !b->variants)
+            def.variants = VIRGA_VARIANTS_GPU;
     }
     return def;
 }
@@ -79,6 +81,9 @@ bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size
             return bench_fail(b, "picture");
     if (b->model && !counting_open(&b->device, error, size))
         return bench_fail(b, "counting");
+    if (b->model == &model_here &&
+        (!counting_time_calls(error, size) || !model_here_measure(&b->device, &b->targets[1], error, size)))
+        return bench_fail(b, "this device");
     return open_context(b, blob, blob_size, when);
 }
 

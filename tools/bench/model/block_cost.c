@@ -20,6 +20,7 @@ typedef struct id_facts {
     uint32_t block;        /* labels: 1 + index */
     bool own;              /* differs between the lanes of a wave */
     bool constant;
+    bool loaded;                  /* pointers: a load of what is the same for all lanes was counted */
     bool exact;                   /* a product or sum that may not be fused with another */
     const block_cost *product_of; /* a product that can be fused: the block that it is in */
 } id_facts;
@@ -252,19 +253,23 @@ static void touch(block_cost *b, uint32_t resource, float bytes, bool written)
 static void cost_of_access(reader *r, uint32_t pointer, float bytes, bool written)
 {
     block_cost *b = r->block;
-    const id_facts *p = &r->ids[pointer];
+    id_facts *p = &r->ids[pointer];
     const float words = bytes / 16 > 1 ? bytes / 16 : 1; /* one instruction moves four words */
     switch (p->storage) {
     case CLASS_STORAGE_BUFFER:
         if (p->own || written) {
             b->memory += words;
             touch(b, p->resource, bytes, written);
-        } else {
-            b->uniform += 1;
+        } else { /* compilers keep what they have loaded, as these are mostly settings */
+            b->uniform += p->loaded ? 0 : 1;
+            p->loaded = true;
         }
         b->waits = b->waits || !written;
         break;
-    case CLASS_UNIFORM: *(p->own ? &b->memory : &b->uniform) += p->own ? words : 1; break;
+    case CLASS_UNIFORM:
+        *(p->own ? &b->memory : &b->constant) += p->own ? words : p->loaded ? 0 : 1;
+        p->loaded = true;
+        break;
     case CLASS_WORKGROUP: b->shared += words; break;
     default: /* registers */ break;
     }
@@ -515,7 +520,7 @@ bool block_costs_anything(const block_costs *costs, uint32_t block)
     for (uint32_t i = block; i < costs->block_count; i++) {
         const block_cost *b = &costs->blocks[i];
         const float sum = b->full + b->slow + b->memory + b->shared + b->fetch + b->sample + b->atomic + b->uniform +
-                          b->branch + b->barrier;
+                          b->constant + b->branch + b->barrier;
         if (b->runs_as == block && sum > 0)
             return true;
     }

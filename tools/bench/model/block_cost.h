@@ -25,7 +25,8 @@ typedef struct block_cost {
     float fetch;      /* texels by their place */
     float sample;     /* filtered texels */
     float atomic;     /* of buffers and images */
-    float uniform;    /* loads that are the same for the whole wave */
+    float uniform;    /* loads of storage buffers and images that are the same for the whole wave */
+    float constant;   /* loads of uniform buffers that are */
     float branch;     /* conditional */
     float barrier;    /* of the workgroup */
     bool waits;       /* it loads from memory: one step of the chain of loads that wait for each other */

@@ -1,6 +1,7 @@
 /* counting.c - see counting.h. */
 #include "bench/model/counting.h"
 
+#include "bench/model/call_times.h"
 #include "bench/model/handle_map.h"
 #include "bench/model/spirv_count.h"
 #include "bench/model/spirv_words.h"
@@ -45,6 +46,14 @@ static struct {
     bool behind_barrier, all;
     uint32_t barriers; /* so far */
     double moved_bytes, moved_so_far;
+    call_times times;
+    counted_pass *timed[CALL_TIMES_MAX]; /* by the call; NULL: something in it was counted */
+    struct {
+        uint32_t call;
+        counted_pass *first; /* pass that drew */
+        const char *name;    /* of the host's; NULL: of the first pass */
+        bool is_open, is_counted;
+    } draws; /* a render pass that is recorded, with times */
 } counting;
 
 /* The driver's own function. */
@@ -416,23 +425,119 @@ static void note_call(VkPipelineBindPoint point)
         note_sizes(&pass->stages[i], contents);
 }
 
-#define COMPUTE  VK_PIPELINE_BIND_POINT_COMPUTE
-#define GRAPHICS VK_PIPELINE_BIND_POINT_GRAPHICS
-#define THROUGH(name, point, parameters, arguments)             \
+/* ---- times */
+
+static void begin_draws(VkCommandBuffer cmd, const char *name)
+{
+    counting.draws.call = call_times_begin(&counting.times, cmd);
+    counting.draws.first = NULL;
+    counting.draws.name = name;
+    counting.draws.is_open = true;
+    counting.draws.is_counted = false;
+}
+
+static void end_draws(VkCommandBuffer cmd)
+{
+    call_times_end(&counting.times, cmd, counting.draws.call);
+    if (counting.draws.call < CALL_TIMES_MAX)
+        counting.timed[counting.draws.call] = counting.draws.is_counted ? NULL : counting.draws.first;
+    counting.draws.is_open = false;
+}
+
+static void note_draw(void)
+{
+    counted_pass *pass = counting.bound[VK_PIPELINE_BIND_POINT_GRAPHICS];
+    if (!counting.draws.is_open || !pass)
+        return;
+    counting.draws.first = counting.draws.first ? counting.draws.first : pass;
+    counting.draws.is_counted |= pass->counts;
+    snprintf(pass->row, sizeof pass->row, "%s", counting.draws.name ? counting.draws.name : counting.draws.first->name);
+}
+
+static uint32_t begin_dispatch(VkCommandBuffer cmd)
+{
+    counted_pass *pass = counting.bound[VK_PIPELINE_BIND_POINT_COMPUTE];
+    const uint32_t call = pass && !pass->counts ? call_times_begin(&counting.times, cmd) : CALL_TIMES_MAX;
+    if (call < CALL_TIMES_MAX)
+        counting.timed[call] = pass;
+    return call;
+}
+
+static void keep_time(counted_pass *pass, double seconds)
+{
+    pass->seconds[pass->time_count++ % COUNTED_TIMES] = seconds;
+}
+
+static void read_times(void)
+{
+    if (!counting.times.pool)
+        return;
+    const uint32_t count = call_times_read(&counting.times);
+    for (uint32_t i = 0; i < count; i++)
+        if (counting.timed[i])
+            counting.timed[i]->seconds_so_far += counting.times.seconds[i];
+    for (uint32_t i = 0; i < counting.pass_count; i++) {
+        counted_pass *pass = &counting.passes[i];
+        if (pass->calls_so_far && !pass->counts && pass->seconds_so_far > 0)
+            keep_time(pass, pass->seconds_so_far);
+        pass->seconds_so_far = 0;
+    }
+}
+
+bool counting_time_calls(char *error, size_t error_size)
+{
+    return call_times_open(&counting.times, counting.device, error, error_size);
+}
+
+void counting_begin_draws(VkCommandBuffer cmd, const char *name)
+{
+    if (counting.times.pool)
+        begin_draws(cmd, name);
+}
+
+void counting_end_draws(VkCommandBuffer cmd)
+{
+    if (counting.times.pool)
+        end_draws(cmd);
+}
+
+static VKAPI_ATTR void VKAPI_CALL begin_render_pass(VkCommandBuffer cmd, const VkRenderPassBeginInfo *info,
+                                                    VkSubpassContents contents)
+{
+    counting_begin_draws(cmd, NULL);
+    DRIVER(CmdBeginRenderPass)(cmd, info, contents);
+}
+
+static VKAPI_ATTR void VKAPI_CALL end_render_pass(VkCommandBuffer cmd)
+{
+    DRIVER(CmdEndRenderPass)(cmd);
+    counting_end_draws(cmd);
+}
+
+/* ---- calls */
+
+#define DISPATCH(name, parameters, arguments)                   \
     static VKAPI_ATTR void VKAPI_CALL through_##name parameters \
     {                                                           \
-        note_call(point);                                       \
+        note_call(VK_PIPELINE_BIND_POINT_COMPUTE);              \
+        const uint32_t call = begin_dispatch(c);                \
+        DRIVER(name) arguments;                                 \
+        call_times_end(&counting.times, c, call);               \
+    }
+DISPATCH(CmdDispatch, (VkCommandBuffer c, uint32_t x, uint32_t y, uint32_t z), (c, x, y, z))
+DISPATCH(CmdDispatchIndirect, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at), (c, b, at))
+
+#define DRAW(name, parameters, arguments)                       \
+    static VKAPI_ATTR void VKAPI_CALL through_##name parameters \
+    {                                                           \
+        note_call(VK_PIPELINE_BIND_POINT_GRAPHICS);             \
+        note_draw();                                            \
         DRIVER(name) arguments;                                 \
     }
-THROUGH(CmdDispatch, COMPUTE, (VkCommandBuffer c, uint32_t x, uint32_t y, uint32_t z), (c, x, y, z))
-THROUGH(CmdDispatchIndirect, COMPUTE, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at), (c, b, at))
-THROUGH(CmdDraw, GRAPHICS, (VkCommandBuffer c, uint32_t n, uint32_t i, uint32_t f, uint32_t k), (c, n, i, f, k))
-THROUGH(CmdDrawIndexed, GRAPHICS, (VkCommandBuffer c, uint32_t n, uint32_t i, uint32_t f, int32_t v, uint32_t k),
-        (c, n, i, f, v, k))
-THROUGH(CmdDrawIndirect, GRAPHICS, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at, uint32_t n, uint32_t s),
-        (c, b, at, n, s))
-THROUGH(CmdDrawIndexedIndirect, GRAPHICS, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at, uint32_t n, uint32_t s),
-        (c, b, at, n, s))
+DRAW(CmdDraw, (VkCommandBuffer c, uint32_t n, uint32_t i, uint32_t f, uint32_t k), (c, n, i, f, k))
+DRAW(CmdDrawIndexed, (VkCommandBuffer c, uint32_t n, uint32_t i, uint32_t f, int32_t v, uint32_t k), (c, n, i, f, v, k))
+DRAW(CmdDrawIndirect, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at, uint32_t n, uint32_t s), (c, b, at, n, s))
+DRAW(CmdDrawIndexedIndirect, (VkCommandBuffer c, VkBuffer b, VkDeviceSize at, uint32_t n, uint32_t s), (c, b, at, n, s))
 
 static VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer cmd, VkPipelineStageFlags before, VkPipelineStageFlags after,
                                           VkDependencyFlags flags, uint32_t count, const VkMemoryBarrier *barriers,
@@ -489,6 +594,8 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_of_device(VkDevice device, c
                    COUNTED("vkCmdDrawIndexed", through_CmdDrawIndexed),
                    COUNTED("vkCmdDrawIndirect", through_CmdDrawIndirect),
                    COUNTED("vkCmdDrawIndexedIndirect", through_CmdDrawIndexedIndirect),
+                   COUNTED("vkCmdBeginRenderPass", begin_render_pass),
+                   COUNTED("vkCmdEndRenderPass", end_render_pass),
                    COUNTED("vkCmdPipelineBarrier", barrier),
                    COUNTED("vkCmdFillBuffer", fill_buffer),
                    COUNTED("vkCmdCopyBuffer", copy_buffer)};
@@ -541,6 +648,7 @@ void counting_close(host_device *device)
         handle_map_free(maps[i]);
     free(counting.kept);
     host_buffer_destroy(device, &counting.numbers);
+    call_times_close(&counting.times);
     vkDestroyDescriptorPool(device->device, counting.pool, NULL);
     vkDestroyDescriptorSetLayout(device->device, counting.set_layout, NULL);
     memset(&counting, 0, sizeof counting);
@@ -557,6 +665,7 @@ static void keep_numbers(const counted_stage *stage)
 void counting_end_frame(void)
 {
     host_buffer_invalidate(counting.device, &counting.numbers);
+    read_times();
     for (uint32_t i = 0; i < counting.pass_count; i++) {
         counted_pass *pass = &counting.passes[i];
         const bool counted = pass->counts && pass->calls_so_far;
@@ -583,7 +692,7 @@ void counting_all_of_next(void)
 void counting_forget(void)
 {
     for (uint32_t i = 0; i < counting.pass_count; i++)
-        counting.passes[i].calls = counting.passes[i].frames = 0;
+        counting.passes[i].calls = counting.passes[i].frames = counting.passes[i].time_count = 0;
 }
 
 uint32_t counting_pass_count(void)

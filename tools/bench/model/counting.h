@@ -18,6 +18,8 @@ typedef struct counted_stage {
     double sizes[BLOCK_RESOURCES];       /* bytes of the bound buffer or image; 0: none was bound */
 } counted_stage;
 
+#define COUNTED_TIMES 9
+
 /* A pipeline, and the newest of its frames that was counted. */
 typedef struct counted_pass {
     char name[64]; /* of the pass, e.g. "rain.step" */
@@ -33,6 +35,10 @@ typedef struct counted_pass {
     bool counts;           /* in this frame */
     bool ended;            /* its pipeline was destroyed */
     float target_bytes;    /* that a fragment reads and writes of its attachments */
+    char row[64];          /* with times: the pass whose times have its own in them: the first of its render pass */
+    double seconds[COUNTED_TIMES]; /* with times: of all its calls in frames that used it and did not count it */
+    uint32_t time_count;           /* of those so far; the newest are kept */
+    double seconds_so_far;
 } counted_pass;
 
 /* An image of the host's, which passes read: its bytes count from now on. */
@@ -46,6 +52,13 @@ void counting_prepare(void);
 bool counting_open(host_device *device, char *error, size_t error_size);
 void counting_close(host_device *device);
 PFN_vkVoidFunction VKAPI_CALL counting_get(VkInstance instance, const char *name);
+
+/* From now on the calls of passes that are not counted in a frame are timed, each behind what is before it. */
+bool counting_time_calls(char *error, size_t error_size);
+
+/* With times: around a render pass of the host's in which passes draw; they are timed together, as `name`. */
+void counting_begin_draws(VkCommandBuffer cmd, const char *name);
+void counting_end_draws(VkCommandBuffer cmd);
 
 /* A frame has ended: the passes that were counted in it have their numbers from now on. No submission may be
  * running. */

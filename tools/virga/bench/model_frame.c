@@ -74,9 +74,13 @@ static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, bool
         counting_all_of_next();
     if (virga_scene_record(scene, cmd, &frame) < 0)
         return options_complain("bench", "a frame failed");
+    if (b->model == &model_here)
+        counting_begin_draws(cmd, "draws");
     host_target_begin_layer(&b->targets[1], cmd);
     const bool drawn = virga_scene_draw(scene, cmd, b->layer) >= 0;
     host_target_end_layer(&b->targets[1], cmd);
+    if (b->model == &model_here)
+        counting_end_draws(cmd);
     return bench_submit(b, &ms) && (drawn || options_complain("bench", "a draw failed"));
 }
 
@@ -96,7 +100,8 @@ static bool run_case(bench *b, const frame_case *c)
     bool good = make_scene(b, c, &scene) && set_rain(scene, c);
     for (int i = 0; i < WARM_UP && good && !interrupt_requested(); i++)
         good = run_frame(b, scene, &view, false);
-    counting_forget();
+    if (b->model != &model_here) /* the times of the frames before are kept */
+        counting_forget();
     good = good && run_frame(b, scene, &view, true);
     if (good && !interrupt_requested()) {
         print_case(scene, c);

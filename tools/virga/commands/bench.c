@@ -14,12 +14,15 @@
 
 static const option_row own_rows[] = {
     {"--passes", 0, "N", "frames: runs of all frames; the minimum of each frame is shown. Default: 3", false},
-    {"--model", 0, "desktop|handheld",
+    {"--model", 0, "desktop|handheld|here",
      "after each measurement, the time that each pass would take on such a card, modelled from "
-     "what it was counted to do; times that are measured beside it are of no use. Without a name: frames",
+     "what it was counted to do; times that are measured beside it are of no use. here: on this device, with one "
+     "thread, beside what its passes take. Without a name of a bench: frames",
      false},
     {"--variants", 0, "software|gpu",
-     "run the variants of passes for software Vulkan or for GPUs. Default: by the device, and gpu with --model", false},
+     "run the variants of passes for software Vulkan or for GPUs. Default: by the device, and gpu with --model of a "
+     "card",
+     false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
 };
 
@@ -103,7 +106,7 @@ static bool find_model(const options *parsed, const model_card **card)
 {
     const char *name = options_value(parsed, "--model");
     *card = name ? model_card_find(name) : NULL;
-    return !name || *card || options_complain("bench", "--model: expected desktop or handheld, got '%s'", name);
+    return !name || *card || options_complain("bench", "--model: expected desktop, handheld or here, got '%s'", name);
 }
 
 static bool find_variants(const options *parsed, virga_pass_variants *variants)
