@@ -11,6 +11,9 @@
 #define LIFE_S    0.09 // of nearly all splashes, SHEET_S in shape.glsl
 #define INSIDE    0.12 // of the ring's coverage: the thin water within it
 
+#define OUT_SHARE 1.15 // farthest that a droplet goes out, of the mean
+#define UP_SHARE  1.21 // highest that one is, of the height of all
+
 float hat(float distance_px, float half_px)
 {
     return max(1.0 - abs(distance_px) / half_px, 0.0);
@@ -40,10 +43,31 @@ vec2 finger_at(vec2 radii, vec2 outward, vec2 reach, float life)
            vec2(0.0, reach.y * life * 1.1 * (1.0 - life));
 }
 
+vec2 ring_radii(float half_wide, float sine, float share)
+{
+    return max(share * half_wide * vec2(1.0, sine), vec2(0.8, 0.4));
+}
+
+// Whether a crown may cover `at`, as a spot or by its ring and droplets. Most of the pixels of several crowns are
+// between them.
+//
+// The spot: one_crown_cover is 0 beyond half_wide, and beyond half a pixel below and above its walls. A droplet: the
+// largest factors of finger_at and of its reach. The ring: where ring_part's distance is h, the point is f = 1 + h
+// sqrt(c^2 / rx^2 + s^2 / ry^2) times as far out as (c rx, s ry) with c^2 + s^2 = 1. So with rx >= ry its y is at most
+// ry + h, and its x at most rx + h sqrt(c^4 + (c s rx / ry)^2), where c s is at most 1/2.
+bool crown_may_cover(vec2 at, float half_wide, float high, float sine, float share)
+{
+    const vec2 radii = ring_radii(half_wide, sine, share);
+    const float flatter = radii.x / radii.y, out_px = OUT_SHARE * (1.0 - share) * half_wide + FINGER_PX;
+    const float wide = radii.x + max(RING_PX * sqrt(1.0 + 0.25 * flatter * flatter), out_px);
+    const float deep = max(sine * half_wide + 0.5, radii.y + max(RING_PX, out_px));
+    return abs(at.x) < max(wide, half_wide) && at.y > -deep && at.y < deep + UP_SHARE * high;
+}
+
 // `at`: from the middle of the foot, y upwards; `share`: the ring's part of the half width. All in pixels.
 float ring_cover(vec2 at, float half_wide, float high, float sine, float share, float life, vec4 chance)
 {
-    const vec2 radii = max(share * half_wide * vec2(1.0, sine), vec2(0.8, 0.4));
+    const vec2 radii = ring_radii(half_wide, sine, share);
     vec2 sum = ring_part(at, radii) * (1.0 - 0.7 * life);
     // The half width and the height are those that the droplets have reached by now.
     const float age = max(life, 0.05), before = max(age - (view.time_close_s - view.time_open_s) / LIFE_S, 0.0);

@@ -1,5 +1,6 @@
 // sprite_pixel.glsl - how much of a pixel a sprite covers.
 #include "gpu/streak_profile.glsl"
+#include "gpu/variants.glsl"
 #include "shared/random.h"
 #include "sprite_form.glsl"
 #define SCENE_DEPTH_BINDING 16
@@ -72,32 +73,18 @@ float pile_cover()
     return clamp(half_width + 0.5 - abs(sprite_position.x), 0.0, 1.0) * tip * ends * flat_foot;
 }
 
-// A distant crown, with a total coverage of 1. Its wall flares from a circle to a wider rim, both ellipses on the
-// picture, so there are a near and a far wall; seen from the side they are one. At the sides the view is along the
-// wall, which makes it thicker there. Number and spacing of the fingers differ between crowns. Small ones are soft
-// spots.
-float one_crown_cover(vec2 at, float half_wide, float high, float sine, vec4 chance)
-{
-    const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0), rim = sine * half_wide;
-    const float up = clamp((at.y + rim) / (high + 2.0 * rim + 1e-3), 0.0, 1.0);
-    const float thin = 1.0 / (half_wide * (1.0 - 0.35 * hollow * (1.0 - up)));
-    const float x = clamp(at.x * thin, -1.0, 1.0), xx = x * x;
-    const float depth = rim * sqrt(1.0 - xx);
-    // Parabolas approximate a sine. Fingers lean.
-    const float lean = chance.w - 0.5;
-    const float wave = fract((0.5 + 0.8 * chance.y) * (x + 0.6 * lean * up) + 7.0 * chance.x) - 0.5;
-    const float fingers = 8.0 * wave * (1.0 - 2.0 * abs(wave)), lower = hollow * (0.25 + 0.2 * xx);
-    const float half_near = 0.5 * high * (1.0 - lower * (1.0 - fingers)),
-                half_far = 0.5 * high * (1.0 - lower * (1.0 + fingers));
-    const float near_by = 1.0 / (abs(half_near - 0.15 * depth) + 0.5), far_by = 1.0 / (half_far + 0.15 * depth + 0.5);
-    const float to_near = (at.y - half_near + 0.85 * depth) * near_by,
-                to_far = (at.y - half_far - 0.85 * depth) * far_by;
-    const float walls = max(1.0 - to_near * to_near, 0.0) * near_by + max(1.0 - to_far * to_far, 0.0) * far_by;
-    const float across = (1.0 - xx) * mix(1.875 * (1.0 - xx), (1.2 + 1.5 * xx) * (1.0 + 0.8 * lean * x), hollow);
-    return 0.1875 * walls * across * thin;
-}
-
+#include "puff_spot.glsl"
 #include "puff_ring.glsl"
+
+// As a spot, or by its ring and droplets where they are large enough to be seen.
+float crown_cover(vec2 at, float half_wide, float high, vec4 chance)
+{
+    const float spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
+    const float seen = shape.y > 0.0 ? smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide) : 0.0;
+    const float parts =
+        seen > 0.0 ? ring_cover(at, half_wide, high, axis_chance.y, shape.y, fract(axis_chance.x), chance) : 0.0;
+    return mix(spot, parts, seen);
+}
 
 #define MAX_OPACITY 0.6 // max opacity of a splash, whose wall is thin
 
@@ -133,14 +120,17 @@ float puff_cover()
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
     const vec2 at = vec2(sprite_position.x + shape.x - (column + 0.5) * column_px - beside,
                          sprite_position.y - lowest - row * row_px - foot);
-    const float spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
-    const float seen = shape.y > 0.0 ? smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide) : 0.0;
-    const float parts =
-        seen > 0.0 ? ring_cover(at, half_wide, high, axis_chance.y, shape.y, fract(axis_chance.x), chance) : 0.0;
+    // A loop, not a branch: software Vulkan skips a loop where no lane takes it.
+    float one = 0.0;
+    bool may_cover = crown_may_cover(at, half_wide, high, axis_chance.y, shape.y);
+    if (FOR_GPU && may_cover)
+        one = crown_cover(at, half_wide, high, chance);
+    [[dont_unroll]] for (; !FOR_GPU && may_cover; may_cover = false)
+        one = crown_cover(at, half_wide, high, chance);
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
     const vec2 on_ellipse = vec2(sprite_position.x * deep, 2.0 * sprite_position.y * shape.x) * each - vec2(0.0, 1.0);
     const float uniform_cover = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
-    return one_px * (one_high + 1.0) * mix(covers * mix(spot, parts, seen), uniform_cover, veil);
+    return one_px * (one_high + 1.0) * mix(covers * one, uniform_cover, veil);
 }
 
 float sprite_cover()

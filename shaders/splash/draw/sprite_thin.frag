@@ -3,6 +3,7 @@
 // One invocation per pixel of such a sprite. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
 #include "gpu/vectors.glsl"
@@ -26,7 +27,12 @@ void main()
     const vec3 open = mix(center_alpha.rgb, rim_kind.rgb, (1.0 + 2.0 * u * u) / 3.0);
     // A cloud's droplets scatter light from everywhere: it shows no picture of what is behind it.
     const bool cloud = !PUFFS && rim_kind.w > 2.5;
-    const vec3 light = cloud ? open : small_water(open);
+    vec3 light = vec3(0.0);
+    if (!PUFFS || FOR_GPU)
+        light = cloud ? open : small_water(open);
+    // Where none of several puffs is there is nothing to light: a loop, see puff_cover.
+    [[dont_unroll]] for (bool shows = PUFFS && !FOR_GPU && alpha > 0.0; shows; shows = false)
+        light = small_water(open);
     radiance = for_target(vec4(light * alpha, alpha));
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);

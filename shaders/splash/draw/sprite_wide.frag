@@ -3,6 +3,7 @@
 // One invocation per pixel of such a sprite. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
 #include "shared/splash_gpu.h"
