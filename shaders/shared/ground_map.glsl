@@ -141,14 +141,16 @@ virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ive
     }
     const vec2 slope = virga_ground_slope(heights, t, cell_m);
     vec3 sum = vec3(0.0);
-    float own = 0.0;
+    float own = 0.0, all = 1e-6;
     for (int i = 0; i < 4; i++) {
         const vec2 corner = vec2(i & 1, i >> 1), share = mix(1.0 - t, t, corner);
         const float same = virga_ground_same(heights[i], height_m, slope, t - corner);
         sum += texels[i].xyz * (share.x * share.y * same);
+        all += share.x * share.y * same;
         own = corner == step(vec2(0.5), t) ? same : own;
     }
     const bool inside = min(low.x, low.y) >= 0 && max(low.x, low.y) < cells - 1;
+    sum /= all; // beside a wall some of the cells are its top
     if (inside) {
         found = virga_ground_wetness(sum.x, sum.y, sum.z,
                                      own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells, sum.x));

@@ -171,11 +171,33 @@ static void what_is_between_two_surfaces_is_dry(void **state)
         }
 }
 
+/* Ground in front of a wall is as wet as before it, though beyond its foot cells are the wall's top; on the wall itself
+ * nothing is wet. It had a dry strip there, half a cell wide. */
+static void ground_is_wet_up_to_a_wall(void **state)
+{
+    static const float cells_m[] = {0.05f, 0.1f};
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        const surface s = {{0, 0}, 0, cells_m[k], CELLS, 0};
+        const float *found = f.found.mapped;
+        lay(0, 0, 3);
+        read_map(&s);
+        for (int x = 0; x < SIDE; x++) {
+            const float at = 2 + ((float)x + 0.5f) / SIDE * (CELLS - 4);
+            if (at < CELLS / 2)
+                assert_float_equal(found[SIDE / 2 * SIDE + x], 1, 1e-3);
+            else if (at > CELLS / 2 + 0.5f)
+                assert_float_equal(found[SIDE / 2 * SIDE + x], 0, 1e-6);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_hill_is_wet_everywhere, begin, end),
         cmocka_unit_test_setup_teardown(what_is_between_two_surfaces_is_dry, begin, end),
+        cmocka_unit_test_setup_teardown(ground_is_wet_up_to_a_wall, begin, end),
     };
     return fixture_result(cmocka_run_group_tests(tests, NULL, NULL));
 }
