@@ -56,6 +56,8 @@ static const scene_row ground_rows[] = {
            "height of the waves that wheels and feet make on puddles; 1: as they are, 0: none, and no cost"),
     SWITCH(scene_ground, contact_shade, "true", LIVE,
            "wet ground is darker under cars and at the foot of what stands on it"),
+    SWITCH(scene_ground, meniscus, "true", LIVE,
+           "standing water climbs walls, posts and kerbs by 3 mm; needs contact_shade"),
     LIST(scene_ground, materials, material_count, &ground_rule_group, 0, 256, "[]",
          "rules: which names of meshes or their materials are of what"),
     OPTIONAL_GROUP(scene_ground, material_map, &material_map_group, RESTARTS,
@@ -382,6 +384,7 @@ static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camer
     virga_ground_maps_get(g->ground, &maps);
     host_renderer_set_ground(s->renderer, &maps);
     host_renderer_set_contact(s->renderer, scene_ground_of(s->scene)->contact_shade);
+    host_renderer_set_meniscus(s->renderer, scene_ground_of(s->scene)->meniscus);
     return true;
 }
 

@@ -36,6 +36,7 @@ typedef struct scene_ground {
     double stream_waves;
     double wake_waves;
     bool contact_shade;
+    bool meniscus;
     scene_ground_rule *materials; /* the first match applies; without one, keywords in names decide */
     uint32_t material_count;
     scene_material_map material_map;

@@ -266,7 +266,16 @@ void host_contact_gather(host_contact *c, VkCommandBuffer cmd, bool placed, cons
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     c->moved = *moving;
-    c->ready = true;
+    c->ready = c->has_layout = true;
+}
+
+void host_contact_bind(host_contact *c, VkCommandBuffer cmd)
+{
+    if (!c->has_layout)
+        host_image_barrier(cmd, &c->shade, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                           VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                           VK_ACCESS_SHADER_READ_BIT);
+    c->has_layout = true;
 }
 
 void host_contact_frame(const host_contact *c, const double camera_m[3], struct host_frame_gpu *frame)

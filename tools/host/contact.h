@@ -43,6 +43,7 @@ typedef struct host_contact {
     VkSampler sampler;
     VkPipeline find_tiles, find_near, gather;
 
+    bool has_layout;        /* `shade` has that in which it is sampled */
     bool ready;             /* it is made, so: */
     double low_m[3];        /* its low corner, and the height of depth 0 as seen from below */
     double height_m;        /* from there to depth 1 */
@@ -73,6 +74,9 @@ void host_contact_begin(const host_contact *contact, VkCommandBuffer cmd, VkRend
 void host_contact_look(const host_contact *contact, host_contact_map map, uint32_t look, float map_from_world[16]);
 void host_contact_end(VkCommandBuffer cmd);
 void host_contact_gather(host_contact *contact, VkCommandBuffer cmd, bool placed, const host_contact_box *moving);
+
+/* Records that `shade` may be bound, if it has not been made yet: then nothing reads it. */
+void host_contact_bind(host_contact *contact, VkCommandBuffer cmd);
 
 /* Fills what the plate's shaders need to sample it. */
 void host_contact_frame(const host_contact *contact, const double camera_m[3], struct host_frame_gpu *frame);

@@ -168,6 +168,11 @@ void host_renderer_set_contact(host_renderer *r, bool on)
     r->has_contact = on;
 }
 
+void host_renderer_set_meniscus(host_renderer *r, bool on)
+{
+    r->has_meniscus = on;
+}
+
 void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
 {
     const bool other = maps && maps->wetness != r->ground.wetness;

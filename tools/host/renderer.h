@@ -35,6 +35,10 @@ void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *
  * it has moved by some metres. Off at first. */
 void host_renderer_set_contact(host_renderer *renderer, bool on);
 
+/* Whether water that stands on the ground climbs walls, posts and kerbs, as high as surface tension holds it: 3 mm. It
+ * is only drawn. Needs the map above, within its 20 m. Off at first. */
+void host_renderer_set_meniscus(host_renderer *renderer, bool on);
+
 /* Sets how wet walls are, for the next plates; NULL: dry. A map of what shelters them is drawn where the camera has
  * moved by some metres or the rain has turned. The device must be idle in the first call with walls. */
 bool host_renderer_set_walls(host_renderer *renderer, const virga_walls *walls, char *error, size_t error_size);

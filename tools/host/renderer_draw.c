@@ -486,6 +486,7 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
     update_skylight(r, cmd, camera);
     update_shelter(r, cmd, camera);
     update_contact(r, cmd, camera);
+    host_contact_bind(&r->contact, cmd);
     if (!record_mirror(r, cmd, target, camera, previous, error, error_size))
         return false;
     host_renderer_fill_frame(r, target, camera, previous, &frame);
@@ -590,6 +591,7 @@ bool host_renderer_draw_still(host_renderer *r, VkCommandBuffer cmd, const host_
     r->ground.cells = 0;
     r->has_walls = false;
     update_shelter(r, cmd, camera);
+    host_contact_bind(&r->contact, cmd);
     if (scene)
         update_skylight(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, camera, &frame);

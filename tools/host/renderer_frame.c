@@ -156,6 +156,7 @@ void host_renderer_fill_frame(const host_renderer *r, const host_target *target,
         host_shelter_frame(&r->shelter, &r->walls, camera->position_m, frame);
     if (r->ground.cells && r->has_contact && r->contact.ready)
         host_contact_frame(&r->contact, camera->position_m, frame);
+    frame->sampling[3] = r->has_meniscus;
     for (uint32_t i = 0; i < r->light_count; i++)
         fill_light(&r->lights[i], camera, &frame->lights[i]);
 }

@@ -81,6 +81,7 @@ struct host_renderer {
     host_shelter shelter;
     host_contact contact;
     bool has_contact;
+    bool has_meniscus;
     bool has_walls; /* else all walls are dry */
     virga_walls walls;
     const host_environment *environment;

@@ -45,7 +45,8 @@ struct host_frame_gpu {
     HOST_VEC4 skylight_low;   /* low corner of the skylight volume relative to the camera, side of a voxel (m) */
     HOST_VEC4 skylight_scale; /* 1 / size of the volume; w: 1 / distance over which it fades out, 0 for never */
     HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
-    /* x: 1 / pictures that are averaged; y and z: first and step of the looks at what water mirrors, of HOST_LOOKS */
+    /* x: 1 / pictures that are averaged; y and z: first and step of the looks at what water mirrors, of HOST_LOOKS;
+     * w: 1: standing water climbs what stands in it */
     HOST_VEC4 sampling;
     /* low corner of the wet ground's window relative to the camera, y: height that its map counts from; w: 1 / side of
      * a cell, 0 for no ground */

@@ -27,6 +27,9 @@ layout(location = 2) in vec2 in_uv;
 #ifndef FOOTAGE
 #define WALLS
 #include "walls.glsl"
+#ifndef MIRROR
+#define CLIMBS
+#endif
 #endif
 #ifdef MIRROR
 layout(location = 0) out vec4 out_color;
@@ -103,9 +106,27 @@ vec3 specular_lobe(vec3 f0, float roughness, float n_l, float n_v, vec3 n, vec3 
     return (f0 + (1.0 - f0) * (c2 * c2 * c)) * (distribution * visibility);
 }
 
-#ifdef WET
+#if defined(WET) || defined(CLIMBS)
 layout(set = 0, binding = 11) uniform sampler2D contact_map;
+#endif
 
+// Irradiance of a lamp at right angles, `to` which that way leads.
+vec3 lamp_light(int i, vec3 to)
+{
+    const float distance2 = max(dot(to, to), 1e-4);
+    const vec3 l = to * inversesqrt(distance2);
+    const float part = distance2 * frame.lights[i].position.w * frame.lights[i].position.w;
+    const float window = max(1.0 - part * part, 0.0);
+    const vec4 cone = frame.lights[i].cone;
+    const float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);
+    return frame.lights[i].intensity.rgb * (window * window * spot * spot / distance2);
+}
+
+#ifdef CLIMBS
+#include "climb.glsl"
+#endif
+
+#ifdef WET
 // Distances towards a lamp at which something may stand in its light. What is farther casts no shadow. Of pictures that
 // are averaged each looks a little nearer or farther.
 const int CONTACT_LOOKS = 8;
@@ -165,14 +186,9 @@ vec3 lit(vec3 albedo, vec3 through, Lobe ground, Lobe water, vec3 v, out vec3 on
         const int i = findLSB(lamps);
         lamps &= lamps - 1;
         const vec3 to = frame.lights[i].position.xyz - in_relative;
-        const float distance2 = max(dot(to, to), 1e-4);
-        const vec3 l = to * inversesqrt(distance2);
-        const float part = distance2 * frame.lights[i].position.w * frame.lights[i].position.w;
-        const float window = max(1.0 - part * part, 0.0);
-        const vec4 cone = frame.lights[i].cone;
-        const float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);
+        const vec3 l = to * inversesqrt(max(dot(to, to), 1e-4));
         const float n_l = max(dot(ground.n, l), 0.0);
-        vec3 light = frame.lights[i].intensity.rgb * (window * window * spot * spot / distance2);
+        vec3 light = lamp_light(i, to);
 #ifdef WET
         const float water_l = max(dot(water.n, l), 0.0), most = max(max(light.r, light.g), light.b);
         const bool looked = near_things > 0.0 && max(n_l, water_l) * most > CONTACT_LEAST;
@@ -331,6 +347,9 @@ void main()
     Wall wall = wall_of(n, bits);
     wet_wall(wall, metallic, albedo, roughness, f0);
 #endif
+#ifdef CLIMBS
+    const Climb climb = climb_at(in_relative, n, v);
+#endif
     vec4 moments = sky_moments(n);
 #ifdef WET
     moments *= bits >= HOST_GROUND ? contact_shade(n) : 1.0;
@@ -359,6 +378,9 @@ void main()
 #ifdef WET
     if (water.puddle > 0.0)
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
+#endif
+#ifdef CLIMBS
+    color = under_climb(color, color - reflected, climb, v, moments, int(surface.lamps.x));
 #endif
     const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
