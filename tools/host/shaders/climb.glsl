@@ -53,8 +53,13 @@ Climb climb_at(vec3 relative, vec3 n, vec3 v)
     const float reach_m = 0.005 + pixel_m, height_m = relative.y - frame.contact.y;
     climb.bent = sqrt(dot(right, right) + dot(down, down));
     climb.view = MeniscusView(meniscus_top(n), clamp(v.y / max(facing, 0.02), 0.0, 10.0), n.y / flat_n);
-    const float about_m = height_m - textureLod(contact_map, at + 0.0015 * climb.out_of_wall.xz, 0.0).y;
-    for (int i = 0; i < (may && abs(about_m) < reach_m + 0.01 ? 1 : 0); i++) {
+    bool near = false;
+    for (int i = 0; i < (may ? 1 : 0); i++) {
+        const vec2 before = at + 0.0015 * climb.out_of_wall.xz;
+        const ivec2 texel = ivec2(before * float(textureSize(contact_map, 0).x));
+        near = abs(height_m - texelFetch(contact_map, texel, 0).y) < reach_m + 0.01;
+    }
+    for (int i = 0; i < (near ? 1 : 0); i++) {
         const float above_m = height_m - ground_before(at, climb.out_of_wall.xz);
         const float water = water_before(relative, climb.out_of_wall);
         if (above_m < -0.002 || above_m > reach_m || water <= 0.0)
