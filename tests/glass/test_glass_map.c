@@ -73,22 +73,25 @@ static double neck_profile(int kind, double density)
 static void summed(const shot *s, const ball *balls, int count, double u, double v, double *density, double *height)
 {
     const int kind = s->settings.density;
-    double sum = 0, inverse = 0, squares = 0;
+    double sum = 0, inverse = 0, squares = 0, outline = 0;
     for (int i = 0; i < count; i++) {
         const ball *b = &balls[i];
         const double x = (u - b->middle[0]) / b->radius, y = (v - b->middle[1]) / b->radius, r = hypot(x, y);
         const double z = b->height * fmax(1 + b->sag[0] * x + b->sag[1] * y, 0.2);
         sum += density_of(kind, r);
+        outline += pow(density_of(kind, r), 2);
         inverse += density_of(kind, r) / z;
         squares += pow(z * fmax(1 - r * r, 0), 2);
     }
     *density = *height = 0;
     if (!(sum > 0))
         return;
-    const double neck = sum / inverse * neck_profile(kind, sum), high = sqrt(squares), above = fmax(neck - high, 0);
+    const double joined = sum + smooth(0.01, 0.02, sum) * (sqrt(outline) - sum);
+    const double within = joined + smooth(0.5, 1, joined) * (sum - joined);
+    const double neck = sum / inverse * neck_profile(kind, within), high = sqrt(squares), above = fmax(neck - high, 0);
     const double inner = high + (above > 0 ? pow(above, 3) / (above * above + 0.1 * squares) : 0);
-    const double t = smooth(0.5, 0.7, sum);
-    *density = compress(&s->settings, sum);
+    const double t = smooth(0.5, 0.7, joined);
+    *density = compress(&s->settings, joined);
     *height = neck * (1 - t) + inner * t;
 }
 

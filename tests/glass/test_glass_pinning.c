@@ -27,10 +27,11 @@ static void displaced(const shot *s, double u, double v, double out[2])
 }
 
 /* The density (Goto et al., faded from 4/3 radii on) of drops on an upright pane: ellipses between displaced points.
+ * Of several it is the root of the sum of their squares, of faint ones (below 0.02) the sum.
  * `strain`, of all of them, is added to what gravity does: both are vectors of twice the angle. */
 static double density_at(const shot *s, const ball *balls, int count, const double strain[2], double u, double v)
 {
-    double point[2], sum = 0;
+    double point[2], sum = 0, squares = 0;
     displaced(s, u, v, point);
     for (int i = 0; i < count; i++) {
         const double r = balls[i].radius, bond = 998.2 * 9.80665 * 4 * r * r / 0.0728;
@@ -42,9 +43,12 @@ static double density_at(const shot *s, const ball *balls, int count, const doub
         const double x = (du * cos(angle) + dv * sin(angle)) / longer, y = (dv * cos(angle) - du * sin(angle)) * longer,
                      x2 = x * x + y * y;
         const double t = fmin(fmax((x2 / 4 - 4.0 / 9) * 9 / 5, 0), 1);
-        sum += (1 - t * t * (3 - 2 * t)) / (1 + x2 * x2);
+        const double density = (1 - t * t * (3 - 2 * t)) / (1 + x2 * x2);
+        sum += density;
+        squares += density * density;
     }
-    return sum;
+    const double t = fmin(fmax((sum - 0.01) / 0.01, 0), 1);
+    return sum + t * t * (3 - 2 * t) * (sqrt(squares) - sum);
 }
 
 static uint32_t packed(double x, double y, double unit)

@@ -3,15 +3,20 @@
 // between invocations by subgroup shuffles, else through shared memory. LANES is the workgroup's size; each invocation
 // has 64 / LANES texels in a column.
 //
-// Of each ball three sums are taken: its density V, V / z and h^2. Here z is its height with its sag, relative to the
+// Of each ball four sums are taken: its density V, V^2, V / z and h^2. Here z is its height with its sag, relative to the
 // view's highest ball, x the distance from its middle over its radius, and h = z (1 - x^2) how high it is, 0 outside of
 // its rim. From them
 //
 //     I = (sum h^2)^(1/2)          is the height of a single ball, smooth where balls meet, and hardly more than that
 //                                  of a large one where a small one lies in or under it
 //     Z = (sum V) / (sum V / z)    is a mean height in which the lowest counts most, as 1 / z does
-//     P = Z p(sum V)               where p is the 1 - x^2 at which a single ball has that density, up to 1/2; then
-//                                  less, and 1 where densities add up to 1.5
+//     D = (sum V^2)^(1/2)          is the density of the outline, which is 1/2 at the rim of a single ball. As smooth as
+//                                  the sum, it joins drops that touch, not yet those that are near: equal ones up to
+//                                  2.33 radii apart, by Goto et al.'s density; by the sum it would be 2.63. Beads and
+//                                  threads of film count as one ball that has the sum of theirs
+//     P = Z p(E)                   where p is the 1 - x^2 at which a single ball has that density, up to 1/2; then
+//                                  less, and 1 at 1.5. E is D at the rim and the sum of V inside, so that P closes the
+//                                  crease between two drops
 //
 // P ends where the water ends, at a density of 1/2, and fills necks, where no ball is high. For a single ball it is
 // nowhere above I, and both agree up to p = 1/2. So the height is P at the rim, and I with what P is above it,
@@ -64,6 +69,7 @@ struct Texel {
     vec2 position;
     ivec4 sums;
     int mist;
+    ivec2 drops; // of the sums of V and V^2, what is not of beads and threads
 };
 
 #if LANES == 8
@@ -107,7 +113,7 @@ Ball ball_of(uint entry)
                 PINNED ? vec2(b.stretch[0], b.stretch[1]) : vec2(0.0));
 }
 
-// What a ball adds to a texel's sums: V, V / z, h^2; by Chen and Zhang k, k V, k V z, k K. A ball that appears has a
+// What a ball adds to a texel's sums: V, V / z, h^2, V^2; by Chen and Zhang k, k V, k V z, k K. A ball that appears has a
 // part of its density, `peak`; its height is then 0 near where that is 1/2.
 ivec4 contributions(Ball ball, vec2 x, float x2, float density)
 {
@@ -117,7 +123,7 @@ ivec4 contributions(Ball ball, vec2 x, float x2, float density)
     if (!WEIGHTED) {
         const float high = height * max(2.0 - (1.0 + x2) * inversesqrt(max(ball.peak, 1e-4)), 0.0);
         const float inverse = density * min(1.0 / height, MAX_INVERSE);
-        return ivec4(vec3(density * ONE, inverse * INVERSE, high * high * SQUARED) + 0.5, 0);
+        return ivec4(vec4(density * ONE, inverse * INVERSE, high * high * SQUARED, density * density * SQUARED) + 0.5);
     }
     // Chen and Zhang, equations 7 and 8. Radii are relative to the largest, as heights are.
     const float falloff = 1.0 / (1.0 + x2), k = ball.height * max(reach - sqrt(x2), 0.0) / reach;
@@ -192,13 +198,23 @@ float neck_profile(float density)
     return max(rim - off * (over * over - 0.25 * t * (2.0 - t)), -1.0);
 }
 
-// x: blended density. y: height of the water over the glass (m), below 0 beside the water; 0 if heights are not needed.
-vec2 summed(ivec4 sum)
+const float FAINT[2] = float[](0.01, 0.02); // far from any rim: squares of densities below are too coarse
+
+// D. The paper's style has the paper's sum.
+float outline_density(ivec4 sum, ivec2 drops)
 {
-    const float density = float(sum.x) / ONE;
+    const float all = float(sum.x) / ONE, beads = float(sum.x - drops.x) / ONE;
+    return PAPER ? all : mix(all, sqrt(float(drops.y) / SQUARED + beads * beads), smoothstep(FAINT[0], FAINT[1], all));
+}
+
+// x: blended density. y: height of the water over the glass (m), below 0 beside the water; 0 if heights are not needed.
+vec2 summed(ivec4 sum, ivec2 drops)
+{
+    const float all = float(sum.x) / ONE;
     if (!HEIGHTS)
-        return vec2(density, 0.0);
-    const float neck = float(sum.x) / float(max(sum.y, 1)) / MAX_INVERSE * neck_profile(density);
+        return vec2(all, 0.0);
+    const float density = outline_density(sum, drops), within = mix(density, all, smoothstep(0.5, 1.0, density));
+    const float neck = float(sum.x) / float(max(sum.y, 1)) / MAX_INVERSE * neck_profile(within);
     const float high = sqrt(float(sum.z) / SQUARED), above = max(neck - high, 0.0);
     const float inner = high + above * above * above / max(above * above + 0.1 * high * high, 1e-12);
     return vec2(density, unit_m * mix(neck, inner, smoothstep(0.5, 0.7, density)));
@@ -222,7 +238,7 @@ vec2 weighted(ivec4 sum)
 // the sheet of film (m).
 uint write_texel(ivec2 at, Texel texel)
 {
-    const vec2 water = WEIGHTED ? weighted(texel.sums) : summed(texel.sums);
+    const vec2 water = WEIGHTED ? weighted(texel.sums) : summed(texel.sums, texel.drops);
     const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
     // A lower bound than the threshold, because a pixel between this texel and its neighbour may be above the
     // threshold.
@@ -266,9 +282,16 @@ void begin_texels(ivec2 first, bool displaced)
 #define BEGIN(i)                                                      \
     {                                                                 \
         const vec2 at = middle_of(first + ivec2(0, i));               \
-        texel##i = Texel(displaced ? at + pinned(at) : at, ivec4(0), 0); \
+        texel##i = Texel(displaced ? at + pinned(at) : at, ivec4(0), 0, ivec2(0)); \
     }
     FOR_EACH(BEGIN)
+}
+
+// Keeps the sums of drops, before those of film are added.
+void keep_drops()
+{
+#define KEEP(i) texel##i.drops = texel##i.sums.xw;
+    FOR_EACH(KEEP)
 }
 
 // The texels' own places, for film.
@@ -332,6 +355,7 @@ void gather()
              look.cap_height * 1.6;
     begin_texels(first, PINNED);
     add_balls(tiles[number]);
+    keep_drops();
     if (PINNED)
         place_texels(first);
     if (WITH_BEADS)
