@@ -1,5 +1,6 @@
 /* bench.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window, and wheels and feet on it. */
 #include "bench/bench.h"
+#include "bench_plate.h"
 #include "effect.h"
 #include "options.h"
 #include "progress.h"
@@ -212,6 +213,7 @@ static bool run(bench *b, const options *parsed)
 }
 
 const tool_bench ground_bench = {
+    .next = &plate_bench,
     .help = "landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain;\n"
             "wheels at 60 km/h, and feet that walk\n",
     .run = run,
