@@ -1,5 +1,5 @@
-/* test_meniscus.c - water that climbs a wall: its profile beside an integration of Young and Laplace's equation, and the
- * light of the strip beside what that profile mirrors, for pixels that are smaller and larger than it. */
+/* test_meniscus.c - water that climbs a wall: its profile beside an integration of Young and Laplace's equation, and
+ * the light of the strip beside what that profile mirrors, for pixels that are smaller and larger than it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,8 +135,8 @@ static void the_profile_is_that_of_young_and_laplace(void **state)
                 assert_true(count < CASES);
                 memcpy(&cases[12 * count], fill, sizeof fill);
                 expected[count] = behind(p, i, rise, lean);
-                widths[count] = (behind(p, i + 1, rise, lean) - behind(p, i - 1, rise, lean)) /
-                                (p->slope[i + 1] - p->slope[i - 1]);
+                widths[count] =
+                    (behind(p, i + 1, rise, lean) - behind(p, i - 1, rise, lean)) / (p->slope[i + 1] - p->slope[i - 1]);
             }
     }
     run_cases(s, cases);
@@ -326,8 +326,8 @@ static double fresnel(double cosine)
     return 0.0204 + (1 - 0.0204) * pow(1 - fmax(cosine, 0), 5);
 }
 
-/* The wall shines, and nothing else does: the strip takes away what is mirrored of the dark. What is lost in pixels that
- * show the foot and are narrower than the strip is up to an eighth of one, and mirrors most. */
+/* The wall shines, and nothing else does: the strip takes away what is mirrored of the dark. What is lost in pixels
+ * that show the foot and are narrower than the strip is up to an eighth of one, and mirrors most. */
 static void a_strip_takes_from_a_bright_wall_what_fresnel_says(void **state)
 {
     static const double fovs[5] = {1, 4, 15, 30, 50};

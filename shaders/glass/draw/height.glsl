@@ -3,15 +3,15 @@
 // between invocations by subgroup shuffles, else through shared memory. LANES is the workgroup's size; each invocation
 // has 64 / LANES texels in a column.
 //
-// Of each ball four sums are taken: its density V, V^2, V / z and h^2. Here z is its height with its sag, relative to the
-// view's highest ball, x the distance from its middle over its radius, and h = z (1 - x^2) how high it is, 0 outside of
-// its rim. From them
+// Of each ball four sums are taken: its density V, V^2, V / z and h^2. Here z is its height with its sag, relative to
+// the view's highest ball, x the distance from its middle over its radius, and h = z (1 - x^2) how high it is, 0
+// outside of its rim. From them
 //
 //     I = (sum h^2)^(1/2)          is the height of a single ball, smooth where balls meet, and hardly more than that
 //                                  of a large one where a small one lies in or under it
 //     Z = (sum V) / (sum V / z)    is a mean height in which the lowest counts most, as 1 / z does
-//     D = (sum V^2)^(1/2)          is the density of the outline, which is 1/2 at the rim of a single ball. As smooth as
-//                                  the sum, it joins drops that touch, not yet those that are near: equal ones up to
+//     D = (sum V^2)^(1/2)          is the density of the outline, 1/2 at the rim of a single ball. Smooth as the sum is,
+//                                  it joins drops that touch, not yet those that are near: equal ones up to
 //                                  2.33 radii apart, by Goto et al.'s density; by the sum it would be 2.63. Beads and
 //                                  threads of film count as one ball that has the sum of theirs
 //     P = Z p(E)                   where p is the 1 - x^2 at which a single ball has that density, up to 1/2; then
@@ -113,8 +113,8 @@ Ball ball_of(uint entry)
                 PINNED ? vec2(b.stretch[0], b.stretch[1]) : vec2(0.0));
 }
 
-// What a ball adds to a texel's sums: V, V / z, h^2, V^2; by Chen and Zhang k, k V, k V z, k K. A ball that appears has a
-// part of its density, `peak`; its height is then 0 near where that is 1/2.
+// What a ball adds to a texel's sums: V, V / z, h^2, V^2; by Chen and Zhang k, k V, k V z, k K. A ball that appears has
+// a part of its density, `peak`; its height is then 0 near where that is 1/2.
 ivec4 contributions(Ball ball, vec2 x, float x2, float density)
 {
     if (!HEIGHTS && !WEIGHTED)

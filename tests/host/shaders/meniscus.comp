@@ -1,5 +1,5 @@
 // meniscus.comp - what meniscus.glsl of the program comes to, for a test. For each case: a view, a slope, a height on
-// the wall and the side of a pixel; the height and width of the slope, the slope of the height, and what the pixel sees.
+// the wall and the side of a pixel; the height and width of the slope, the slope of the height, what the pixel sees.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "meniscus.glsl"

@@ -1,5 +1,5 @@
-// climb.glsl - light of the strip of water that climbs a wall, a post or a kerb from ground where water stands. Where it
-// is narrower than a pixel, all slopes that the pixel has of it are in what it mirrors, so it is no chain of dots.
+// climb.glsl - light of the strip of water that climbs a wall, a post or a kerb from ground where water stands. Where
+// it is narrower than a pixel, all slopes that the pixel has of it are in what it mirrors, so it is no chain of dots.
 #include "meniscus.glsl"
 
 const int CLIMB_FACETS = 4;
@@ -83,8 +83,8 @@ float climb_fresnel(float cosine)
     return 0.0204 + (1.0 - 0.0204) * c2 * c2 * c;
 }
 
-// What it mirrors of the sky, and (w) the share of light that it mirrors: by facets of equal steps of the slope, each as
-// rough as a step is wide (a uniform distribution has the standard deviation of its width over sqrt(12); Beckmann's
+// What it mirrors of the sky, and (w) the share of light that it mirrors: by facets of equal steps of the slope, each
+// as rough as a step is wide (a uniform distribution has the standard deviation of its width over sqrt(12); Beckmann's
 // alpha is sqrt(2) of one), and as large as it is seen.
 vec4 climb_sky(Climb climb, vec3 v, vec4 moments)
 {
@@ -105,9 +105,9 @@ vec4 climb_sky(Climb climb, vec3 v, vec4 moments)
 }
 
 // What it mirrors of lamps. Of facets whose normals have the density p, by the area that is seen of them, a lamp that
-// gives the irradiance E at right angles is mirrored as F(v h) p(h) E / (4 v h): a change of h turns the ray by twice as
-// much, which is four v h of solid angle. Along the slope p is the width of the strip that has it; across it is a normal
-// distribution.
+// gives the irradiance E at right angles is mirrored as F(v h) p(h) E / (4 v h): a change of h turns the ray by twice
+// as much, which is four v h of solid angle. Along the slope p is the width of the strip that has it; across it is a
+// normal distribution.
 vec3 climb_lamps(Climb climb, vec3 v, int lamps)
 {
     const vec3 along = cross(climb.out_of_wall, vec3(0.0, 1.0, 0.0));

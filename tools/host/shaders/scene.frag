@@ -330,8 +330,7 @@ void main()
 #ifdef MIRROR
     eye.y = 2.0 * frame.mirror.x;
 #endif
-    vec3 v = normalize(eye - in_relative);
-    vec3 n = seen_normal(v);
+    vec3 v = normalize(eye - in_relative), n = seen_normal(v);
     float roughness = surface.emissive.w, metallic = surface.traits.x;
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
@@ -346,9 +345,6 @@ void main()
 #ifdef WALLS
     Wall wall = wall_of(n, bits);
     wet_wall(wall, metallic, albedo, roughness, f0);
-#endif
-#ifdef CLIMBS
-    const Climb climb = climb_at(in_relative, n, v);
 #endif
     vec4 moments = sky_moments(n);
 #ifdef WET
@@ -380,7 +376,7 @@ void main()
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
 #endif
 #ifdef CLIMBS
-    color = under_climb(color, color - reflected, climb, v, moments, int(surface.lamps.x));
+    color = under_climb(color, color - reflected, climb_at(in_relative, n, v), v, moments, int(surface.lamps.x));
 #endif
     const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
