@@ -10,7 +10,7 @@
 //     I = (sum h^2)^(1/2)          is the height of a single ball, smooth where balls meet, and hardly more than that
 //                                  of a large one where a small one lies in or under it
 //     Z = (sum V) / (sum V / z)    is a mean height in which the lowest counts most, as 1 / z does
-//     D = (sum V^2)^(1/2)          is the density of the outline, 1/2 at the rim of a single ball. Smooth as the sum is,
+//     D = (sum V^2)^(1/2)          is the density of the outline, 1/2 at the rim of a single ball. Smooth as the sum,
 //                                  it joins drops that touch, not yet those that are near: equal ones up to
 //                                  2.33 radii apart, by Goto et al.'s density; by the sum it would be 2.63. Beads and
 //                                  threads of film count as one ball that has the sum of theirs
