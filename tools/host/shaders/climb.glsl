@@ -83,10 +83,17 @@ float climb_fresnel(float cosine)
     return 0.0204 + (1.0 - 0.0204) * c2 * c2 * c;
 }
 
-// What it mirrors of the sky, and (w) the share of light that it mirrors: by facets of equal steps of the slope, each
-// as rough as a step is wide (a uniform distribution has the standard deviation of its width over sqrt(12); Beckmann's
-// alpha is sqrt(2) of one), and as large as it is seen.
-vec4 climb_sky(Climb climb, vec3 v, vec4 moments)
+// How far a direction from the strip, which is next to the wall, leads away from it: mean of those within so many
+// radians.
+float climb_open(Climb climb, vec3 d, float width)
+{
+    return clamp(dot(d, climb.out_of_wall) / width + 0.5, 0.0, 1.0);
+}
+
+// What it mirrors of the sky and of the wall, whose colour is given, and (w) the share of light that it mirrors: by
+// facets of equal steps of the slope, each as rough as a step is wide (a uniform distribution has the standard deviation
+// of its width over sqrt(12); Beckmann's alpha is sqrt(2) of one), and as large as it is seen.
+vec4 climb_sky(vec3 color, Climb climb, vec3 v, vec4 moments)
 {
     const float step_width = (climb.high - climb.low) / float(CLIMB_FACETS);
     const float roughness = clamp(sqrt(step_width * 0.408), 0.05, 0.5);
@@ -97,7 +104,8 @@ vec4 climb_sky(Climb climb, vec3 v, vec4 moments)
         const float above = meniscus_height(climb.view, slope + 0.5 * step_width), seen = max(above - below, 0.0);
         const vec3 facet = climb_normal(climb, slope), r = reflect(-v, facet);
         const float f = climb_fresnel(dot(facet, v));
-        sum += seen * f * vec4(reflected_light(r, roughness) * sky_share(moments, r), 1.0);
+        const vec3 sky = reflected_light(r, roughness) * sky_share(moments, r);
+        sum += seen * f * vec4(mix(color, sky, climb_open(climb, r, max(2.0 * step_width, 0.05))), 1.0);
         whole += seen;
         below = above;
     }
@@ -126,7 +134,7 @@ vec3 climb_lamps(Climb climb, vec3 v, int lamps)
         const float p = off * grown * meniscus_width(climb.view, inside) / seen_m * exp(-0.5 * across * across) /
                         (soft * 2.5066283);
         const float cosine = max(dot(v, h), 0.05);
-        sum += lamp_light(i, to) * (p * climb_fresnel(cosine) / (4.0 * cosine));
+        sum += lamp_light(i, to) * climb_open(climb, l, 0.05) * (p * climb_fresnel(cosine) / (4.0 * cosine));
     }
     return sum;
 }
@@ -136,7 +144,7 @@ vec3 climb_lamps(Climb climb, vec3 v, int lamps)
 vec3 under_climb(vec3 color, vec3 below, Climb climb, vec3 v, vec4 moments, int lamps)
 {
     for (int i = 0; i < (climb.share > 0.0 ? 1 : 0); i++) {
-        const vec4 mirrored = climb_sky(climb, v, moments);
+        const vec4 mirrored = climb_sky(below, climb, v, moments);
         const vec3 water = below * (1.0 - mirrored.w) + mirrored.rgb + climb_lamps(climb, v, lamps);
         color = mix(color, water, climb.share);
     }
