@@ -91,8 +91,8 @@ float climb_open(Climb climb, vec3 d, float width)
 }
 
 // What it mirrors of the sky and of the wall, whose colour is given, and (w) the share of light that it mirrors: by
-// facets of equal steps of the slope, each as rough as a step is wide (a uniform distribution has the standard deviation
-// of its width over sqrt(12); Beckmann's alpha is sqrt(2) of one), and as large as it is seen.
+// facets of equal steps of the slope, each as rough as a step is wide (a uniform distribution has the standard
+// deviation of its width over sqrt(12); Beckmann's alpha is sqrt(2) of one), and as large as it is seen.
 vec4 climb_sky(vec3 color, Climb climb, vec3 v, vec4 moments)
 {
     const float step_width = (climb.high - climb.low) / float(CLIMB_FACETS);
