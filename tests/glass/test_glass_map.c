@@ -61,7 +61,7 @@ static double smooth(double low, double high, double x)
     return t * t * (3 - 2 * t);
 }
 
-/* p of the sum of densities; see shaders/glass/draw/height.glsl. */
+/* p of the sum of densities, or of the root of that of their squares; see shaders/glass/draw/height.glsl. */
 static double neck_profile(int kind, double density)
 {
     const double x = density < 1 ? inverse_of(kind, density) : 0, rim = 1 - x * x, over = fmax(rim - 0.5, 0);

@@ -15,7 +15,7 @@
 
 #include "meniscus_comp.spv.h"
 
-enum { SIDE = 128, CELLS = 64, STEPS = 40000, CASES = 4096, COLUMNS = 11 };
+enum { SIDE = 128, CELLS = 64, STEPS = 40000, CASES = 4096, COLUMNS = 11, MAPS = 4 };
 
 #define CAPILLARY_M 0.00273
 #define ANGLE       0.349 /* of contact */
@@ -30,7 +30,7 @@ typedef struct scene {
     host_renderer *renderer;
     host_environment dark;
     host_mesh ground, wall;
-    host_image maps[3];
+    host_image maps[MAPS];
     host_accumulator sums;
     host_drawn picture;
 } scene;
@@ -116,8 +116,8 @@ static void run_cases(scene *s, float *cases)
     host_buffer_destroy(device, &data);
 }
 
-/* Heights to 1e-4 of a, by the double integration; the slope that is found for one to 1e-3 of a; the width is the
- * height's derivative. For walls that are upright, lean back and lean over. */
+/* Heights to 1e-4 of a, by the double integration; the slope that is found for one to 1e-3 of that at the wall; the
+ * width is the height's derivative. For walls that are upright, lean back and lean over. */
 static void the_profile_is_that_of_young_and_laplace(void **state)
 {
     static const double tops[4] = {PI / 2 - ANGLE, 0.6, 1.3, 1.7}, rises[4] = {0, 0.2, 1, 3}, leans[3] = {0, 0.3, -0.2};
@@ -157,8 +157,8 @@ static void the_profile_is_that_of_young_and_laplace(void **state)
     free(cases);
 }
 
-/* Whatever the pixels' side and wherever they begin above the level, together they have the strip's height: to a
- * millionth where it is narrower than one, else but for what is above the level in the pixel of its foot. */
+/* Whatever the pixels' side and wherever they begin above the level, together they have the strip's height: to
+ * 1e-4 where it is narrower than one, else but for what is above the level in the pixel of its foot. */
 static void pixels_of_a_column_have_all_of_the_strip(void **state)
 {
     scene *s = *state;
@@ -223,18 +223,10 @@ static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height,
            host_wait(device, s->base.error, sizeof s->base.error);
 }
 
-/* Level ground under 2 mm of water, from the wall on. */
-static bool lay_water(scene *s)
+/* Level ground under the water of a map of wetness. */
+static void set_water(scene *s, const host_image *wetness)
 {
-    static uint16_t wet[CELLS * CELLS][4];
-    static const uint32_t none[CELLS * CELLS * 2];
-    for (int i = 0; i < CELLS * CELLS; i++)
-        wet[i][0] = 0x3c00, wet[i][1] = 0x4000; /* 1 and 2 */
-    if (!make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
-        !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
-        !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
-        return false;
-    const virga_ground_maps maps = {.wetness = s->maps[0].view,
+    const virga_ground_maps maps = {.wetness = wetness->view,
                                     .spots = s->maps[1].view,
                                     .ripples = s->maps[2].view,
                                     .ripple_texels = 16,
@@ -244,6 +236,24 @@ static bool lay_water(scene *s)
                                     .low_m = {-16, -16},
                                     .high_m = {16, 16}};
     host_renderer_set_ground(s->renderer, &maps);
+}
+
+/* 2 mm of water, and another map with 0.05 mm. */
+static bool lay_water(scene *s)
+{
+    static uint16_t wet[CELLS * CELLS][4], damp[CELLS * CELLS][4];
+    static const uint32_t none[CELLS * CELLS * 2];
+    for (int i = 0; i < CELLS * CELLS; i++) {
+        wet[i][0] = damp[i][0] = 0x3c00; /* 1 */
+        wet[i][1] = 0x4000;              /* 2 */
+        damp[i][1] = 0x2a66;             /* 0.05 */
+    }
+    if (!make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
+        !make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, damp, 8, &s->maps[3]) ||
+        !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
+        !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
+        return false;
+    set_water(s, &s->maps[0]);
     host_renderer_set_contact(s->renderer, true);
     return true;
 }
@@ -284,7 +294,7 @@ static int tear_down(void **state)
     host_environment_destroy(&s->base.device, &s->dark);
     host_mesh_destroy(&s->base.device, &s->ground);
     host_mesh_destroy(&s->base.device, &s->wall);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < MAPS; i++)
         host_image_destroy(&s->base.device, &s->maps[i]);
     host_target_destroy(&s->base.device, &s->target);
     return fixture_tear_down(&s->base);
@@ -410,6 +420,15 @@ static void a_lamp_behind_the_wall_is_not_mirrored(void **state)
     host_renderer_set_lights(s->renderer, NULL, 0);
 }
 
+static void nothing_climbs_from_what_is_only_wet(void **state)
+{
+    scene *s = *state;
+    set_water(s, &s->maps[3]);
+    assert_true(change_m(s, 15, 0, 0, 0) == 0);
+    set_water(s, &s->maps[0]);
+    assert_true(change_m(s, 15, 0, 0, 0) < 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -418,6 +437,7 @@ int main(void)
         cmocka_unit_test(a_strip_takes_from_a_bright_wall_what_fresnel_says),
         cmocka_unit_test(a_strip_mirrors_a_lamp_as_rays_do),
         cmocka_unit_test(a_lamp_behind_the_wall_is_not_mirrored),
+        cmocka_unit_test(nothing_climbs_from_what_is_only_wet),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

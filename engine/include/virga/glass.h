@@ -247,7 +247,7 @@ typedef enum virga_glass_density {
 } virga_glass_density;
 
 typedef enum virga_glass_blend {
-    VIRGA_GLASS_BLEND_SUM = 0,      /* densities add up, then are compressed (Goto et al.) */
+    VIRGA_GLASS_BLEND_SUM = 0,      /* their squares add up; in the paper's style densities do (Goto et al.) */
     VIRGA_GLASS_BLEND_WEIGHTED = 1, /* weighted by the depth inside each ball (Chen and Zhang, equations 6 to 10) */
 } virga_glass_blend;
 

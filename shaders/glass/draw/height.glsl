@@ -46,7 +46,7 @@
 #include "mask.glsl"
 
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
-#define SQUARED 16777216.0 // and in that of squares: the view's highest ball has 0.4 there
+#define SQUARED 16777216.0 // and in that of squares of heights: the view's highest ball has 0.4 there
 #define MAX_INVERSE 128.0 // of heights; lower balls count as if they were so high
 #define INVERSE (ONE / MAX_INVERSE)
 #define MAX_CELLS 14 // max cells along a side that a tile lies on or beside, where beads have a shape
@@ -123,7 +123,7 @@ ivec4 contributions(Ball ball, vec2 x, float x2, float density)
     if (!WEIGHTED) {
         const float high = height * max(2.0 - (1.0 + x2) * inversesqrt(max(ball.peak, 1e-4)), 0.0);
         const float inverse = density * min(1.0 / height, MAX_INVERSE);
-        return ivec4(vec4(density * ONE, inverse * INVERSE, high * high * SQUARED, density * density * SQUARED) + 0.5);
+        return ivec4(vec4(density * ONE, inverse * INVERSE, high * high * SQUARED, density * density * ONE) + 0.5);
     }
     // Chen and Zhang, equations 7 and 8. Radii are relative to the largest, as heights are.
     const float falloff = 1.0 / (1.0 + x2), k = ball.height * max(reach - sqrt(x2), 0.0) / reach;
@@ -204,7 +204,7 @@ const float FAINT[2] = float[](0.01, 0.02); // far from any rim: squares of dens
 float outline_density(ivec4 sum, ivec2 drops)
 {
     const float all = float(sum.x) / ONE, beads = float(sum.x - drops.x) / ONE;
-    return PAPER ? all : mix(all, sqrt(float(drops.y) / SQUARED + beads * beads), smoothstep(FAINT[0], FAINT[1], all));
+    return PAPER ? all : mix(all, sqrt(float(drops.y) / ONE + beads * beads), smoothstep(FAINT[0], FAINT[1], all));
 }
 
 // x: blended density. y: height of the water over the glass (m), below 0 beside the water; 0 if heights are not needed.

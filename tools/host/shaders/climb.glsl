@@ -52,7 +52,9 @@ Climb climb_at(vec3 relative, vec3 n, vec3 v)
                      abs(n.y) < 0.7 && facing > 0.02;
     const float reach_m = 0.005 + pixel_m, height_m = relative.y - frame.contact.y;
     climb.bent = sqrt(dot(right, right) + dot(down, down));
-    climb.view = MeniscusView(meniscus_top(n), clamp(v.y / max(facing, 0.02), 0.0, 10.0), n.y / flat_n);
+    /* Where a smooth normal leans over so far that it turns away from the eye, rays would meet the wall from behind. */
+    const float lean = n.y / flat_n, most = 0.8 / max(-lean, 0.08);
+    climb.view = MeniscusView(meniscus_top(n), clamp(v.y / max(facing, 0.02), 0.0, min(most, 10.0)), lean);
     bool near = false;
     for (int i = 0; i < (may ? 1 : 0); i++) {
         const vec2 before = at + 0.0015 * climb.out_of_wall.xz;
@@ -60,14 +62,17 @@ Climb climb_at(vec3 relative, vec3 n, vec3 v)
         near = abs(height_m - texelFetch(contact_map, texel, 0).y) < reach_m + 0.01;
     }
     for (int i = 0; i < (near ? 1 : 0); i++) {
-        const float above_m = height_m - ground_before(at, climb.out_of_wall.xz);
+        const float ground_m = ground_before(at, climb.out_of_wall.xz), above_m = height_m - ground_m;
         const float water = water_before(relative, climb.out_of_wall);
         if (above_m < -0.002 || above_m > reach_m || water <= 0.0)
             break;
         const vec3 seen = meniscus_seen(climb.view, max(above_m, 0.0), pixel_m);
         climb.low = seen.x;
         climb.high = max(seen.y, seen.x + 0.01);
-        climb.share = water * seen.z;
+        /* The map has half floats: where the ground is more than 2 m above its lowest place within the map, their steps
+         * are as large as the strip is high. */
+        const float step_m = exp2(floor(log2(max(ground_m, 0.5))) - 10.0);
+        climb.share = water * seen.z * (1.0 - smoothstep(0.001, 0.003, step_m));
     }
     return climb;
 }
@@ -127,7 +132,8 @@ vec3 climb_lamps(Climb climb, vec3 v, int lamps)
         const int i = findLSB(lamps);
         lamps &= lamps - 1;
         const vec3 to = frame.lights[i].position.xyz - in_relative;
-        const vec3 l = normalize(to), h = normalize(v + l);
+        const vec3 l = to * inversesqrt(max(dot(to, to), 1e-4)), both = v + l;
+        const vec3 h = both * inversesqrt(max(dot(both, both), 1e-6));
         const float slope = atan(dot(h, climb.out_of_wall), h.y), across = dot(h, along) / soft;
         const float inside = clamp(slope, climb.low, climb.high);
         const float off = clamp(1.0 - abs(slope - inside) / (2.0 * CLIMB_SOFT), 0.0, 1.0);
@@ -139,7 +145,7 @@ vec3 climb_lamps(Climb climb, vec3 v, int lamps)
     return sum;
 }
 
-// The colour of a wall with the strip. `below`: its colour where it is under water and mirrors nothing itself; `lamps`:
+// The colour of a wall with the strip. `below`: its colour under water, where it mirrors no sky itself; `lamps`:
 // bits of those that may reach it.
 vec3 under_climb(vec3 color, vec3 below, Climb climb, vec3 v, vec4 moments, int lamps)
 {
