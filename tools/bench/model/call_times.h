@@ -23,8 +23,8 @@ void call_times_close(call_times *times);
 uint32_t call_times_begin(call_times *times, VkCommandBuffer cmd);
 void call_times_end(call_times *times, VkCommandBuffer cmd, uint32_t call);
 
-/* Fills `seconds` for the calls of the frame, which must have completed, and returns their number. The next frame begins
- * with call 0. */
+/* Fills `seconds` for the calls of the frame, which must have completed, and returns their number. The next frame
+ * begins with call 0. */
 uint32_t call_times_read(call_times *times);
 
 #endif

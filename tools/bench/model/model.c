@@ -59,7 +59,7 @@ const model_card model_handheld = {
     .issue = RDNA2_ISSUE,
 };
 
-/* Bytes that are asked for of the cache, and loads that wait for each other, are in what loads were measured to take. */
+/* What loads were measured to take has the cache's bytes, and the loads that wait for each other, in it. */
 model_card model_here = {
     .name = "here",
     .what = "this device, with one thread",

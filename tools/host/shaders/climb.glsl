@@ -145,10 +145,11 @@ vec3 climb_lamps(Climb climb, vec3 v, int lamps)
     return sum;
 }
 
-// The colour of a wall with the strip. `below`: its colour under water, where it mirrors no sky itself; `lamps`:
+// The colour of a wall with the strip. Under water the wall does not mirror what it `reflected` of the sky; `lamps`:
 // bits of those that may reach it.
-vec3 under_climb(vec3 color, vec3 below, Climb climb, vec3 v, vec4 moments, int lamps)
+vec3 under_climb(vec3 color, vec3 reflected, Climb climb, vec3 v, vec4 moments, int lamps)
 {
+    const vec3 below = max(color - reflected, 0.0);
     for (int i = 0; i < (climb.share > 0.0 ? 1 : 0); i++) {
         const vec4 mirrored = climb_sky(below, climb, v, moments);
         const vec3 water = below * (1.0 - mirrored.w) + mirrored.rgb + climb_lamps(climb, v, lamps);

@@ -376,7 +376,7 @@ void main()
         color = mix(color, under_water(color, v, moments, water, on_water), water.puddle);
 #endif
 #ifdef CLIMBS
-    color = under_climb(color, max(color - reflected, 0.0), climb_at(in_relative, n, v), v, moments, int(surface.lamps.x));
+    color = under_climb(color, reflected, climb_at(in_relative, n, v), v, moments, int(surface.lamps.x));
 #endif
     const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
