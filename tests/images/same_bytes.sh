@@ -42,7 +42,7 @@ same one_thread $frames
 # Software Vulkan's shader cache does not know the vector width, so this width has one of its own.
 if [ "$narrow_cache" != none ]; then
     # All its shaders are compiled anew, so only what moves drops is compared, and little is drawn.
-    layers=(--layers depth --samples 1)
+    layers=(--layers depth)
     render narrow 1-2 LP_NATIVE_VECTOR_WIDTH=128 MESA_SHADER_CACHE_DIR="$narrow_cache"
     same narrow $points
     layers=()

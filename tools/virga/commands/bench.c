@@ -14,10 +14,11 @@
 
 static const option_row own_rows[] = {
     {"--passes", 0, "N", "frames: runs of all frames; the minimum of each frame is shown. Default: 3", false},
-    {"--model", 0, "desktop|handheld|here",
-     "after each measurement, the time that each pass would take on such a card, modelled from "
-     "what it was counted to do; times that are measured beside it are of no use. here: on this device, with one "
-     "thread, beside what its passes take. Without a name of a bench: frames",
+    {"--model", 0, "CARD",
+     "desktop, handheld or here: after each measurement, the time that each pass would take on such "
+     "a card, modelled from what it was counted to do; times that are measured beside it are of no "
+     "use. here: on this device, with one thread, beside what its passes take. Without a name of a "
+     "bench: frames",
      false},
     {"--variants", 0, "software|gpu",
      "run the variants of passes for software Vulkan or for GPUs. Default: by the device, and gpu with --model of a "
