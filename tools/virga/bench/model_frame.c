@@ -97,6 +97,8 @@ static bool run_case(bench *b, const frame_case *c)
     virga_scene *scene = NULL;
     virga_view view;
     bench_view(&view, 1);
+    b->floor.ground = true;
+    b->floor.material = VIRGA_MATERIAL_ASPHALT;
     bool good = make_scene(b, c, &scene) && set_rain(scene, c);
     for (int i = 0; i < WARM_UP && good && !interrupt_requested(); i++)
         good = run_frame(b, scene, &view, false);
