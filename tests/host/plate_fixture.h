@@ -113,6 +113,29 @@ static inline bool fixture_plate(fixture *f, host_renderer *renderer, host_targe
     return true;
 }
 
+/* A map of the ground's water as virga_ground_maps has it, in the layout that its reader expects. `texels` are of
+ * `texel` bytes. */
+static inline bool fixture_map(fixture *f, VkFormat format, uint32_t width, uint32_t height, const void *texels,
+                               uint32_t texel, host_image *image)
+{
+    const host_image_def def = {
+        .format = format,
+        .extent = {width, height, 1},
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .name = "map of water",
+    };
+    const size_t size = sizeof f->error;
+    VkCommandBuffer cmd;
+    if (!host_image_create(&f->device, &def, image, f->error, size) ||
+        !host_image_upload(&f->device, image, texels, (VkDeviceSize)width * height * texel, texel, f->error, size) ||
+        !host_begin_frame(&f->device, &cmd, f->error, size))
+        return false;
+    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    return host_submit(&f->device, f->error, size) && host_wait(&f->device, f->error, size);
+}
+
 /* The exit code of main, from the number of failed cases: cmocka does not count the teardown of a group. */
 static inline int fixture_result(int failed)
 {

@@ -200,29 +200,6 @@ static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const
            host_renderer_add(s->renderer, mesh, s->base.error, sizeof s->base.error);
 }
 
-static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height, const void *texels, uint32_t texel,
-                     host_image *image)
-{
-    const host_image_def def = {
-        .format = format,
-        .extent = {width, height, 1},
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = "map of water",
-    };
-    host_device *device = &s->base.device;
-    VkCommandBuffer cmd;
-    if (!host_image_create(device, &def, image, s->base.error, sizeof s->base.error) ||
-        !host_image_upload(device, image, texels, (VkDeviceSize)width * height * texel, texel, s->base.error,
-                           sizeof s->base.error) ||
-        !host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
-        return false;
-    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    return host_submit(device, s->base.error, sizeof s->base.error) &&
-           host_wait(device, s->base.error, sizeof s->base.error);
-}
-
 /* Level ground under the water of a map of wetness. */
 static void set_water(scene *s, const host_image *wetness)
 {
@@ -248,10 +225,10 @@ static bool lay_water(scene *s)
         wet[i][1] = 0x4000;              /* 2 */
         damp[i][1] = 0x2a66;             /* 0.05 */
     }
-    if (!make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
-        !make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, damp, 8, &s->maps[3]) ||
-        !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
-        !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
+    if (!fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
+        !fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, damp, 8, &s->maps[3]) ||
+        !fixture_map(&s->base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
+        !fixture_map(&s->base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
         return false;
     set_water(s, &s->maps[0]);
     host_renderer_set_contact(s->renderer, true);

@@ -259,29 +259,6 @@ static void shade_under_cube(void **state)
     assert_true(s->picture.color[under * 4] > 0.0f);
 }
 
-static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height, const void *texels, uint32_t texel,
-                     host_image *image)
-{
-    const host_image_def def = {
-        .format = format,
-        .extent = {width, height, 1},
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = "map of a puddle",
-    };
-    host_device *device = &s->base.device;
-    VkCommandBuffer cmd;
-    if (!host_image_create(device, &def, image, s->base.error, sizeof s->base.error) ||
-        !host_image_upload(device, image, texels, (VkDeviceSize)width * height * texel, texel, s->base.error,
-                           sizeof s->base.error) ||
-        !host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
-        return false;
-    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    return host_submit(device, s->base.error, sizeof s->base.error) &&
-           host_wait(device, s->base.error, sizeof s->base.error);
-}
-
 /* Share of a level surface's sky that a level square of 2 m a side hides, 1 m above: four times that of a corner. */
 static double hidden_by_square(void)
 {
@@ -307,9 +284,9 @@ static virga_ground_maps maps_of(const host_image *wet, const host_image *spots,
 static bool make_dry(scene *s, host_image images[3])
 {
     static const uint32_t none[CELLS * CELLS * 2];
-    const bool made = make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, none, 8, &images[0]) &&
-                      make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &images[1]) &&
-                      make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &images[2]);
+    const bool made = fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, none, 8, &images[0]) &&
+                      fixture_map(&s->base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &images[1]) &&
+                      fixture_map(&s->base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &images[2]);
     const virga_ground_maps maps = maps_of(&images[0], &images[1], &images[2]);
     host_renderer_set_ground(s->renderer, made ? &maps : NULL);
     return made;
@@ -504,15 +481,15 @@ static bool make_wet(scene *s, uint16_t variance, host_image *wet)
         texels[i][1] = 0x4500;
         texels[i][2] = variance;
     }
-    return make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, texels, 8, wet);
+    return fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, texels, 8, wet);
 }
 
 /* Flat water on all of the plane that is seen. */
 static bool make_water(scene *s, puddle *p)
 {
     static const uint32_t none[CELLS * 2 * CELLS];
-    if (!make_wet(s, 0, &p->wet) || !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &p->spots) ||
-        !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &p->ripples))
+    if (!make_wet(s, 0, &p->wet) || !fixture_map(&s->base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &p->spots) ||
+        !fixture_map(&s->base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &p->ripples))
         return false;
     p->maps = maps_of(&p->wet, &p->spots, &p->ripples);
     host_renderer_set_ground(s->renderer, &p->maps);
