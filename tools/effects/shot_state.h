@@ -5,6 +5,7 @@
 
 #include "heights.h"
 #include "host.h"
+#include "renderer.h"
 #include "scene_file.h"
 
 #include <virga/virga.h>
@@ -20,6 +21,7 @@ typedef struct shot_options {
     uint32_t width, height;
     uint32_t samples;                     /* sub-frames averaged, at least 1 */
     bool draw;                            /* false: simulation only */
+    host_plate_parts parts;               /* of the picture; layers of effects are drawn only for a whole one */
     bool stats;                           /* statistics are read, also those that cost device time */
     bool points;                          /* point caches are read back after each step */
     const char *plate;                    /* footage that replaces the opaque scene, see plate.h; NULL: none */

@@ -77,6 +77,12 @@ static bool is_added(const host_accumulator *a, const host_target *target, int o
     return is_summed(target, output) && !(a->skipped & 1u << output);
 }
 
+/* Whether the frame has its mean: none of the sub-frames may have added it. */
+static bool is_there(const host_accumulator *a, const host_target *target, int output)
+{
+    return is_summed(target, output) && a->counts[output];
+}
+
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
 /* The output, weights. */
@@ -324,7 +330,7 @@ void host_accumulator_copy_out(const host_accumulator *a, VkCommandBuffer cmd, c
     for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
         const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                           .imageExtent = {a->width, a->height, 1}};
-        if (is_summed(target, i))
+        if (is_there(a, target, i))
             vkCmdCopyImageToBuffer(cmd, a->sums[i].image, VK_IMAGE_LAYOUT_GENERAL, target->copies[i].buffer, 1,
                                    &region);
     }
@@ -368,9 +374,9 @@ void host_accumulator_finish(const host_accumulator *a, const host_target *targe
         const host_output output = (host_output)i;
         if (!target->images[i].image)
             continue;
-        if (is_summed(target, i))
+        if (is_there(a, target, i))
             divide(a, host_target_floats(a->device, target, output), output, floats_of(p, output));
-        else if (i >= HOST_LAYER)
+        else if (i >= HOST_LAYER && !is_summed(target, i))
             memcpy(floats_of(p, output), host_target_floats(a->device, target, output), pixels * 4 * sizeof(float));
     }
     if (a->samples > 1 || a->weight_sums)

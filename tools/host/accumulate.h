@@ -65,7 +65,7 @@ void host_accumulator_reset(host_accumulator *accumulator);
 float *host_accumulator_weigh(host_accumulator *accumulator, char *error, size_t error_size);
 
 /* The next sub-frame does not have this output, which is averaged from the others: one that hardly differs between
- * them. At least one must add it. Not with weights. */
+ * them. One that no sub-frame adds stays as it is in the picture. Not with weights, but for such a one. */
 void host_accumulator_skip(host_accumulator *accumulator, host_output output);
 
 /* Records that all outputs of a target are added, after they are drawn. The same target and the same order give the

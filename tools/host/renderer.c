@@ -163,6 +163,11 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
     return true;
 }
 
+void host_renderer_set_parts(host_renderer *r, host_plate_parts parts)
+{
+    r->parts = parts;
+}
+
 void host_renderer_set_contact(host_renderer *r, bool on)
 {
     r->has_contact = on;

@@ -65,6 +65,17 @@ void host_renderer_haze_mirror(host_renderer *renderer, host_draw_haze draw, voi
 /* What virga_target_create needs for that pass, into a default definition. False: there is no mirror. */
 bool host_renderer_describe_mirror(const host_renderer *renderer, virga_target_def *def);
 
+/* What of a plate is drawn. What is not is as the pass clears it. */
+typedef enum host_plate_parts {
+    HOST_PLATE_WHOLE,
+    HOST_PLATE_DATA,  /* no color: nothing is lit or mirrored */
+    HOST_PLATE_DEPTH, /* only depth */
+} host_plate_parts;
+
+/* For host_renderer_plate from now on; at first all. What is drawn has the same bits as in a whole plate whose
+ * sub-frames do not share shading; depth always has. */
+void host_renderer_set_parts(host_renderer *renderer, host_plate_parts parts);
+
 /* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. Builds the pipelines that are
  * drawn with for the first time; fails if the device can not. */
 bool host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,

@@ -80,7 +80,8 @@ static bool is_drawn_by(const host_material *material, host_pipeline kind)
     case HOST_PIPELINE_ID: return material->alpha == HOST_ALPHA_OPAQUE;
     case HOST_PIPELINE_CUTOUT:
     case HOST_PIPELINE_CUTOUT_ID: return material->alpha == HOST_ALPHA_MASK;
-    case HOST_PIPELINE_SHADE: return material->alpha != HOST_ALPHA_GLASS;
+    case HOST_PIPELINE_SHADE:
+    case HOST_PIPELINE_DATA: return material->alpha != HOST_ALPHA_GLASS;
     case HOST_PIPELINE_GLASS: return material->alpha == HOST_ALPHA_GLASS;
     case HOST_PIPELINE_FOOTAGE: return true;
     default: return false;
@@ -136,7 +137,8 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
     if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */
-    const bool one_shader = kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_FOOTAGE;
+    const bool one_shader =
+        kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_DATA || kind == HOST_PIPELINE_FOOTAGE;
     level = one_shader ? count : level;
     draw_indices(d, kind, material->two_sided, first, level);
     draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
@@ -186,19 +188,22 @@ static void draw_depth(drawing *d)
 static void shade(drawing *d)
 {
     const host_renderer *r = d->renderer;
-    draw_entries(d, HOST_PIPELINE_SHADE);
+    const bool data_only = r->parts == HOST_PLATE_DATA;
+    draw_entries(d, data_only ? HOST_PIPELINE_DATA : HOST_PIPELINE_SHADE);
     if (r->footage)
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1, &r->footage_set, 0,
                                 NULL);
     if (bind(d, r->footage ? HOST_PIPELINE_FOOTAGE_MIRROR : HOST_PIPELINE_SKY, true))
         vkCmdDraw(d->cmd, 3, 1, 0, 0);
-    draw_entries(d, HOST_PIPELINE_GLASS);
+    if (!data_only)
+        draw_entries(d, HOST_PIPELINE_GLASS);
 }
 
 static void draw_scene(drawing *d)
 {
     draw_depth(d);
-    shade(d);
+    if (d->renderer->parts != HOST_PLATE_DEPTH)
+        shade(d);
 }
 
 /* ---- skylight ----------------------------------------------------------------------------------------------- */
@@ -483,12 +488,14 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
                         const host_camera *previous, const char *label, char *error, size_t error_size)
 {
     struct host_frame_gpu frame;
-    update_skylight(r, cmd, camera);
-    update_shelter(r, cmd, camera);
-    update_contact(r, cmd, camera);
-    host_contact_bind(&r->contact, cmd);
-    if (!record_mirror(r, cmd, target, camera, previous, error, error_size))
-        return false;
+    if (r->parts == HOST_PLATE_WHOLE) {
+        update_skylight(r, cmd, camera);
+        update_shelter(r, cmd, camera);
+        update_contact(r, cmd, camera);
+        host_contact_bind(&r->contact, cmd);
+        if (!record_mirror(r, cmd, target, camera, previous, error, error_size))
+            return false;
+    }
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     host_renderer_look_at_mirror(r, camera, &frame);
     record_frame(r, cmd, &frame);
@@ -516,7 +523,7 @@ bool host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_tar
 
 static bool may_share(const host_renderer *r, const host_target *target, const host_camera *camera)
 {
-    return camera->shares > 1 && r->reuse.width == target->width && r->reuse.height == target->height;
+    return camera->shares > 1 && r->parts == HOST_PLATE_WHOLE && r->reuse.width == target->width && r->reuse.height == target->height;
 }
 
 /* Velocities are the camera's: what moves by itself is told apart by its id. That does not do where it shows what is

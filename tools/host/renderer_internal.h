@@ -22,6 +22,7 @@ typedef enum host_pipeline {
     HOST_PIPELINE_DRY,   /* instead of the last two where no water can lie; not in the mirror, where nothing is wet */
     HOST_PIPELINE_DRY_GLASS,
     HOST_PIPELINE_CLOTH,   /* instead of HOST_PIPELINE_SHADE for all of what lets light through; not in the mirror */
+    HOST_PIPELINE_DATA,    /* instead of HOST_PIPELINE_SHADE: no color */
     HOST_PIPELINE_FOOTAGE, /* what water changes of ground on a picture */
     HOST_PIPELINE_FOOTAGE_MIRROR, /* instead of the sky in the mirror, where a picture replaces the plate */
     HOST_PIPELINE_SKY,
@@ -57,6 +58,7 @@ typedef struct host_entry { /* a mesh that was added */
 
 struct host_renderer {
     host_device *device;
+    host_plate_parts parts;
     VkSampler samplers[HOST_SAMPLINGS];
     VkDescriptorSetLayout material_layout;
     host_bindings bindings;

@@ -10,6 +10,7 @@
 #include "id_frag.spv.h"
 #include "scene_frag.spv.h"
 #include "scene_frag_cloth.spv.h"
+#include "scene_frag_data.spv.h"
 #include "scene_frag_dry.spv.h"
 #include "scene_frag_footage.spv.h"
 #include "scene_frag_mirror.spv.h"
@@ -50,6 +51,7 @@ enum {
     SHADER_SCENE_FRAG,
     SHADER_DRY_FRAG,
     SHADER_CLOTH_FRAG,
+    SHADER_DATA_FRAG,
     SHADER_FOOTAGE_FRAG,
     SHADER_FOOTAGE_MIRROR,
     SHADER_SKY_VERT,
@@ -72,6 +74,7 @@ static const struct {
     [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_CLOTH] = {SHADER_SCENE_VERT, SHADER_CLOTH_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
+    [HOST_PIPELINE_DATA] = {SHADER_SCENE_VERT, SHADER_DATA_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_FOOTAGE] = {SHADER_SCENE_VERT, SHADER_FOOTAGE_FRAG, false, true, true, VK_COMPARE_OP_ALWAYS},
     [HOST_PIPELINE_FOOTAGE_MIRROR] = {SHADER_SKY_VERT, SHADER_FOOTAGE_MIRROR, true, true, false,
                                       VK_COMPARE_OP_LESS_OR_EQUAL},
@@ -89,6 +92,7 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
     case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
     case SHADER_CLOTH_FRAG: return HOST_CODE(scene_frag_cloth);
+    case SHADER_DATA_FRAG: return HOST_CODE(scene_frag_data);
     case SHADER_FOOTAGE_FRAG: return HOST_CODE(scene_frag_footage);
     case SHADER_FOOTAGE_MIRROR: return HOST_CODE(footage_mirror_frag);
     case SHADER_SKY_VERT: return HOST_CODE(sky_vert);

@@ -2,7 +2,7 @@
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
 // mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOTAGE it is what
 // water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry
-// in that sense, light of the other side comes through.
+// in that sense, light of the other side comes through. With DATA it has no color.
 #extension GL_GOOGLE_include_directive : require
 #ifdef CLOTH
 #define DRY
@@ -24,7 +24,7 @@ layout(location = 0) in vec3 in_relative;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 
-#ifndef FOOTAGE
+#if !defined(FOOTAGE) && !defined(DATA)
 #define WALLS
 #include "walls.glsl"
 #ifndef MIRROR
@@ -39,7 +39,9 @@ layout(location = 1) out float out_near;
 #ifndef DRY
 #define WET
 #include "water.glsl"
+#ifndef DATA
 #include "mirror.glsl"
+#endif
 #endif
 #endif
 
@@ -205,7 +207,7 @@ vec3 lit(vec3 albedo, vec3 through, Lobe ground, Lobe water, vec3 v, out vec3 on
     return sum;
 }
 
-#ifdef WET
+#if defined(WET) && !defined(DATA)
 // What near things leave of what is seen of the sky.
 float contact_shade(vec3 n)
 {
@@ -296,6 +298,15 @@ vec3 seen_normal(vec3 v)
     return dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
 }
 
+#ifdef DATA
+void main()
+{
+    const vec3 n = seen_normal(normalize(-in_relative));
+    const Water water = water_at(in_relative, n);
+    const bool cloth = surface.lamps.z > 0.0; // no water lies on it
+    write(vec3(0.0), 1.0, n, vec3(0.0), cloth ? vec2(0.0) : vec2(max(water.damp, water.film), water.depth_mm * 1e-3));
+}
+#else
 Wall wall_of(vec3 n, int bits)
 {
 #ifdef THIN
@@ -382,4 +393,5 @@ void main()
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
     write(color, alpha, n, eye, wetness);
 }
+#endif
 #endif

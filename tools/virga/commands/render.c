@@ -33,7 +33,10 @@ static const option_row rows[] = {
      "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
      "Default 1; 16 for film",
      false},
-    {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
+    {"--layers", 0, "A,B",
+     "layers of the frames, see below. Without beauty and without layers of effects nothing is lit, and only depth is "
+     "quicker still. Default: all that the scene has",
+     false},
     {"--water-velocity", 0, "PERCENT",
      "velocity.X/Y are those of the water where it covers at least this share of a pixel, 1 to 100. Default: those "
      "of the plate everywhere",
@@ -231,6 +234,8 @@ static bool read_ranges(render_job *job)
     job->how.width = size[0];
     job->how.height = size[1];
     job->how.draw = !job->simulate;
+    if (!job->preview && !job->picture.bits && !job->how.water_velocity)
+        job->how.parts = frame_layers_parts(job->layers);
     job->how.checkpoints = job->directory;
     job->how.points = job->points;
     job->how.stats = job->stats;

@@ -106,6 +106,20 @@ bool frame_layers_narrow(const scene_file *scene, uint32_t *layers)
     return *layers || options_complain("render", "--layers: the scene has no %s", missing);
 }
 
+host_plate_parts frame_layers_parts(uint32_t layers)
+{
+    host_plate_parts parts = HOST_PLATE_DEPTH;
+    for (uint32_t i = 0; frame_layer(i); i++) {
+        const tool_layer *layer = rows[i].layer;
+        if (!(layers & 1u << i) || (!layer->draw && layer->plate == HOST_DEPTH))
+            continue;
+        if (layer->draw || layer->plate == HOST_COLOR)
+            return HOST_PLATE_WHOLE;
+        parts = HOST_PLATE_DATA;
+    }
+    return parts;
+}
+
 uint32_t frame_layers_in(const char *channels)
 {
     uint32_t layers = 0;

@@ -20,6 +20,9 @@ bool frame_layers_parse(const char *list, uint32_t *layers);
 /* Leaves out the layers that the scene has nothing for. Prints one line and returns false where none is left. */
 bool frame_layers_narrow(const scene_file *scene, uint32_t *layers);
 
+/* What of a plate these layers need. Those of effects need all of it, as water shows what is behind it. */
+host_plate_parts frame_layers_parts(uint32_t layers);
+
 /* Layers that a picture with these channels (as exr_header has them) holds, and their list as --layers reads it. */
 uint32_t frame_layers_in(const char *channels);
 void frame_layers_print(uint32_t layers, char *text, size_t size);

@@ -68,7 +68,7 @@ static bool list_layer(shot *s, uint32_t effect, const tool_layer *layer, char *
 static bool list_layers(shot *s, char *error, size_t error_size)
 {
     s->layer_count = 0;
-    for (uint32_t i = 0; tool_effects[i]; i++)
+    for (uint32_t i = 0; s->options.parts == HOST_PLATE_WHOLE && tool_effects[i]; i++)
         for (uint32_t k = 0; k < tool_effects[i]->layer_count && tool_effect_is_used(tool_effects[i], s->scene); k++)
             if (tool_effects[i]->layers[k].draw && !list_layer(s, i, &tool_effects[i]->layers[k], error, error_size))
                 return false;

@@ -285,6 +285,18 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     return record_picture(s, cmd, &at, &cameras, error, error_size);
 }
 
+/* What is not drawn is not added up: colors, and the layer that a target has from the start. */
+static void skip_outputs(shot *s)
+{
+    if (s->options.parts == HOST_PLATE_WHOLE)
+        return;
+    host_accumulator_skip(&s->sums, HOST_COLOR);
+    host_accumulator_skip(&s->sums, HOST_LAYER);
+    for (int i = 0; s->options.parts == HOST_PLATE_DEPTH && i < HOST_LAYER; i++)
+        if (i != HOST_DEPTH)
+            host_accumulator_skip(&s->sums, (host_output)i);
+}
+
 /* Cat's eye, where sub-frames look through the lens. */
 static bool weigh_sample(shot *s, uint32_t sample, char *error, size_t error_size)
 {
@@ -304,8 +316,10 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
 {
     VkCommandBuffer cmd;
     if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size) ||
-        !weigh_sample(s, sample, error, error_size) ||
-        !host_accumulator_add(&s->sums, cmd, &s->target, is_kept(s, sample), error, error_size))
+        !weigh_sample(s, sample, error, error_size))
+        return false;
+    skip_outputs(s);
+    if (!host_accumulator_add(&s->sums, cmd, &s->target, is_kept(s, sample), error, error_size))
         return false;
     if (sample + 1 == s->options.samples)
         host_accumulator_copy_out(&s->sums, cmd, &s->target);

@@ -92,7 +92,7 @@ bool shot_open_lens(shot *s, char *error, size_t error_size)
 {
     uint32_t own_depths = 0;
     shot_close_lens(s);
-    if (!s->options.draw || !shot_gathers(s))
+    if (!s->options.draw || s->options.parts != HOST_PLATE_WHOLE || !shot_gathers(s))
         return true;
     s->lens = calloc(1, sizeof *s->lens);
     if (!s->lens)

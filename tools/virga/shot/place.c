@@ -225,7 +225,8 @@ bool shot_find_light(shot *s, double time_s, char *error, size_t error_size)
 
 bool shot_open_place(shot *s, char *error, size_t error_size)
 {
-    if (!s->renderer || s->plate || s->scene->environment.around <= 0)
+    const bool lights = s->renderer && s->options.parts == HOST_PLATE_WHOLE;
+    if (!lights || s->plate || s->scene->environment.around <= 0)
         return true;
     s->place = calloc(1, sizeof *s->place);
     if (!s->place)

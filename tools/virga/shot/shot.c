@@ -148,12 +148,20 @@ static bool check_input(shot *s, char *error, size_t error_size)
                                    plate_ground_open(s, error, error_size));
 }
 
+static bool shares_shading(const shot_options *options)
+{
+    return host_reuse_share(options->samples) > 1;
+}
+
 static bool open_renderer(shot *s, char *error, size_t error_size)
 {
-    return shot_create_target(s, error, error_size) &&
-           host_renderer_create(&s->device, &s->renderer, error, error_size) &&
-           (host_reuse_share(s->options.samples) == 1 ||
-            host_renderer_set_reuse(s->renderer, &s->target, error, error_size));
+    if (!shot_create_target(s, error, error_size) ||
+        !host_renderer_create(&s->device, &s->renderer, error, error_size) ||
+        (shares_shading(&s->options) && !host_renderer_set_reuse(s->renderer, &s->target, error, error_size)))
+        return false;
+    if (!s->plate)
+        host_renderer_set_parts(s->renderer, s->options.parts);
+    return true;
 }
 
 bool shot_open_scene(shot *s, char *error, size_t error_size)
@@ -209,6 +217,10 @@ bool shot_open(shot *s, const scene_file *scene, const shot_options *options, ch
     s->scene = scene;
     s->options = *options;
     s->options.samples = options->samples ? options->samples : 1;
+    /* Where sub-frames share shading, colors decide which pixels do, and normals follow. Water on footage is drawn as a
+     * whole. */
+    if (options->parts == HOST_PLATE_DATA && (options->plate || shares_shading(&s->options)))
+        s->options.parts = HOST_PLATE_WHOLE;
     s->frame_index = scene->frames.first - 1;
     s->preroll = (uint32_t)lround(shot_preroll_s(s) * scene->frames.fps);
     s->camera_time_s = -shot_preroll_s(s);
