@@ -18,7 +18,7 @@ export LP_NUM_THREADS=${LP_NUM_THREADS:-2}
 render() { # name options...
     local name=$1
     shift
-    if ! "$drive" --device "${VIRGA_TEST_DEVICE:-cpu}" --size 160x96 --fps 10 --start 12 --frames 8 "$@" \
+    if ! "$drive" --device "${VIRGA_TEST_DEVICE:-cpu}" --size 160x96 --fps 10 --start 12 --frames 5 "$@" \
         --out "$work/$name.png" >"$work/$name.log" 2>&1; then
         cat "$work/$name.log"
         echo "failed: drive $*"
@@ -49,14 +49,14 @@ without_layers outside_dry --rain 0 --outside
 python3 "$look" "$work/outside_rain.png" "$work/outside_dry.png" 0.02
 
 # Walls that the wind blows at are wet.
-without_layers walls_rain --rain 10 --outside --frames 2
-without_layers walls_dry --rain 0 --outside --frames 2
+without_layers walls_rain --rain 10 --outside --frames 2 --quality low
+without_layers walls_dry --rain 0 --outside --frames 2 --quality low
 python3 "$look" "$work/walls_rain.png" "$work/walls_dry.png" 0 walls
 
 # The pipelines that a run compiled are kept, and taken by the next.
-render first --rain 10 --frames 1 --pipelines "$work/pipelines"
+render first --rain 10 --frames 1 --quality low --pipelines "$work/pipelines"
 [ -s "$work/pipelines" ] || { echo "no pipelines were kept"; exit 1; }
-without_layers second --rain 10 --frames 1 --pipelines "$work/pipelines"
+without_layers second --rain 10 --frames 1 --quality low --pipelines "$work/pipelines"
 
 # Frames as long as they take; the quantiles of their times are printed.
 (unset VK_INSTANCE_LAYERS VK_LAYER_ENABLES

@@ -20,6 +20,7 @@ camera: {keys: [{time_s: 0, position_m: [0, 1.5, 3], look_at_m: [0, 0.5, 0]},
 frames: {fps: 24, first: 1, last: 2, size: [96, 54], warm_start: false}
 rain: {rate_mm_h: 100, max_drops: 4096, occlusion_size: 64}
 ground: {on: true, cells: 128, start_water_mm: 1}
+splash: {on: false}
 YAML
 
 # channels FOLDER CHANNEL,...: of the second frame, as floats.

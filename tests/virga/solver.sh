@@ -104,7 +104,7 @@ water:
       - {name: turned, box_m: [5.8, 2.9, 0.2], keys: [{time_s: 0, position_m: [0, 1.5, 1.45], rotation_deg: [90, 0, 0]},
          {time_s: 1, position_m: [0, 2.5, 1.45], rotation_deg: [90, 0, 0]}]}
 YAML
-draw roof roof --stats --frames 5
+draw roof roof --layers depth --stats --frames 5
 python3 - "$work/roof/stats.jsonl" <<'END' || fail "rain on bodies"
 import json, sys
 water = json.loads(open(sys.argv[1]).readlines()[-1])["water_ul"]
@@ -113,7 +113,8 @@ if not water["off_ground"] > 0.8 * water["rained_total"] > 0:
 END
 
 # It finds a board that only the water and gravity move, too: this one falls and turns from edge-on (0.07) to flat.
-draw roof turning --stats --frames 5 --set 'water.solver.walls={low_m: [-4, 0, -4], high_m: [4, 8, 4]}' \
+VIRGA_VALIDATE=0 draw roof turning --layers depth --stats --frames 5 \
+    --set 'water.solver.walls={low_m: [-4, 0, -4], high_m: [4, 8, 4]}' \
     --set 'water.solver.bodies=[{name: turning, box_m: [5.8, 0.4, 5.8], density: 1, position_m: [0, 4, 0],
     rotation_deg: [0, 0, 90], spin_deg_s: [0, 0, 180]}]'
 python3 - "$work/turning/stats.jsonl" <<'END' || fail "rain on a body that falls"

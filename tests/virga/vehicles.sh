@@ -52,8 +52,8 @@ END
 budget all 100000000 || fail "water of wheels"
 
 # The roof is 1 m^2 and drips along its way: 30 mm/h on it are 1,250 ul in 0.15 s. Nothing else can.
-draw drive drips --stats --frames 1-6 --set splash.drips.on=true
-draw drive dry --stats --frames 1-6 --set splash.drips.on=true --set splash.drips.moving=false
+draw drive drips --layers depth --stats --frames 1-6 --set splash.drips.on=true
+VIRGA_VALIDATE=0 draw drive dry --layers depth --stats --frames 1-6 --set splash.drips.on=true --set splash.drips.moving=false
 budget drips 100000000 || fail "water of wheels and drips"
 python3 - "$work" <<'END' || fail "drips of what drives"
 import json, sys
@@ -76,7 +76,7 @@ END
 printf 'v -3 4 -3\nv 3 4 -3\nv 3 4 3\nv -3 4 3\nf 1 4 3 2\n' >"$work/bridge.obj"
 printf 'v -3 4 0\nv 3 4 0\nv 3 4 3\nv -3 4 3\nf 1 4 3 2\n' >"$work/half.obj"
 for roof in bridge half; do
-    draw drive $roof --stats --frames 1-6 --set splash.drips.on=true \
+    VIRGA_VALIDATE=0 draw drive $roof --layers depth --stats --frames 1-6 --set splash.drips.on=true \
         --set "meshes=[{file: road.obj}, {file: $roof.obj}]"
 done
 python3 - "$work" <<'END' || fail "drips below a bridge"
@@ -114,7 +114,8 @@ YAML
 draw walk steps --stats --frames 1-12
 budget steps 100000 || fail "water of feet"
 # One that goes down a little while it stands treads as hard.
-draw walk down --stats --frames 1-12 --set 'vehicles.0.keys.0.position_m=[0, 0.03, 1.5]' \
+VIRGA_VALIDATE=0 draw walk down --layers depth --stats --frames 1-12 \
+    --set 'vehicles.0.keys.0.position_m=[0, 0.03, 1.5]' \
     --set 'vehicles.0.keys.1.position_m=[0, -0.1, -1.5]'
 budget down 5000000 || fail "water of feet that go down"
 
