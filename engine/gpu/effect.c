@@ -247,6 +247,8 @@ static virga_result init(virga_effect *effect)
         TRY(type->create(effect));
     TRY(create_passes(effect, virga_effect_member(effect, type->settings.member)));
     TRY(virga_recording_result(effect->context));
+    if (type->fill)
+        TRY(type->fill(effect));
 error:
     return result < 0 ? result : fitted;
 }

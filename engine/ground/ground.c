@@ -291,9 +291,19 @@ static virga_result create(void *object)
                               &ground->height_map));
     TRY(virga_mesh_map_create(context, def->far_cells, 2, false, def->occluder_strides, "ground.far_height_map", group,
                               &ground->far.height_map));
-    TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->shared, group,
-                              &ground->ripples));
+    TRY(ground_ripples_create(context, def->ripple_texels, ground->bindings->shared, group, &ground->ripples));
     TRY(ground_streams_create(context, ground->ripples.map, ground->bindings->shared, group, &ground->streams));
+error:
+    return result;
+}
+
+static virga_result fill(void *object)
+{
+    virga_ground *ground = object;
+    virga_context *context = ground->base.context;
+    virga_result result = VIRGA_OK;
+    TRY(ground_ripples_fill(context, (double)ground->def.ripple_texel_m, &ground->ripples));
+    TRY(ground_streams_fill_tile(context, &ground->streams));
 error:
     return result;
 }
@@ -366,7 +376,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(ground)
 const virga_effect_type ground_type = {
     VIRGA_EFFECT_TYPE(ground, "the ground", "ground_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, extra_bytes, init, create, destroy, fill_settings, check_settings, apply_settings),
+    VIRGA_CALLBACKS(fit_device, extra_bytes, init, create, fill, destroy, fill_settings, check_settings, apply_settings),
     .draws = ground_draws,
     .draw_count = 1,
     .draw_layout = 1,

@@ -118,8 +118,10 @@ typedef struct ground_ripples {
     virga_pipeline *pipeline;
 } ground_ripples;
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, struct virga_layout *layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, struct virga_layout *layout,
                                    virga_pipeline_group *group, ground_ripples *ripples);
+/* The table of waves. */
+virga_result ground_ripples_fill(virga_context *context, double texel_m, ground_ripples *ripples);
 VkDeviceSize ground_ripples_bytes(uint32_t texels);
 void ground_ripples_retire(virga_context *context, ground_ripples *ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
@@ -142,6 +144,8 @@ uint32_t ground_streams_blocks(const virga_ground_def *def);
 VkDeviceSize ground_streams_bytes(void);
 virga_result ground_streams_create(virga_context *context, const virga_offscreen *map, struct virga_layout *layout,
                                    virga_pipeline_group *group, ground_streams *streams);
+/* The tile of waves. */
+virga_result ground_streams_fill_tile(virga_context *context, ground_streams *streams);
 void ground_streams_retire(virga_context *context, ground_streams *streams);
 void ground_streams_upload(virga_context *context, VkCommandBuffer cmd, ground_streams *streams);
 void ground_streams_fill(const virga_ground *ground, virga_ground_tick_gpu *out);

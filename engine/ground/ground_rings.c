@@ -66,30 +66,32 @@ static void fill_layer(int layer, const float *slopes, uint16_t *texels)
     }
 }
 
-static virga_result create_waves(virga_context *context, double texel_m, ground_ripples *ripples)
+virga_result ground_ripples_fill(virga_context *context, double texel_m, ground_ripples *ripples)
+{
+    float *slopes = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *slopes);
+    if (!slopes)
+        return virga_out_of_host_memory(context, "the table of rings");
+    ring_table_fill(slopes, 0.5 * texel_m);
+    for (int layer = 0; layer < VIRGA_RING_LAYERS; layer++)
+        fill_layer(layer, slopes, ripples->upload->memory.block.mapped);
+    virga_free(&context->heap, slopes);
+    virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
+    return virga_recording_result(context);
+}
+
+static virga_result create_waves(virga_context *context, ground_ripples *ripples)
 {
     virga_result result = VIRGA_OK;
-    float *slopes = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *slopes);
-    if (!slopes) {
-        result = virga_out_of_host_memory(context, "the table of rings");
-        goto error;
-    }
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
                            VIRGA_RING_LAYERS, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.waves", &ripples->waves));
     TRY(virga_buffer_create(context, WAVE_VALUES * 4 * sizeof(uint16_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                             VIRGA_HEAP_UPLOAD, "ground.waves_upload", &ripples->upload));
-    ring_table_fill(slopes, 0.5 * texel_m);
-    for (int layer = 0; layer < VIRGA_RING_LAYERS; layer++)
-        fill_layer(layer, slopes, ripples->upload->memory.block.mapped);
-    virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
-    TRY(virga_recording_result(context));
 error:
-    virga_free(&context->heap, slopes);
     return result;
 }
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, struct virga_layout *layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, struct virga_layout *layout,
                                    virga_pipeline_group *group, ground_ripples *ripples)
 {
     const virga_offscreen_def map = {.name = "ground.ripples",
@@ -103,7 +105,7 @@ virga_result ground_ripples_create(virga_context *context, uint32_t texels, doub
                                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT};
     virga_result result = VIRGA_OK;
     TRY(virga_offscreen_create(context, &map, &ripples->map));
-    TRY(create_waves(context, texel_m, ripples));
+    TRY(create_waves(context, ripples));
     const virga_graphics_def def = {.vertex = VIRGA_SPIRV(ground_ring_vert),
                                     .fragment = VIRGA_SPIRV(ground_ring_frag),
                                     .layout = layout,

@@ -50,8 +50,6 @@ virga_result ground_streams_create(virga_context *context, const virga_offscreen
                            "ground.stream_tile", &streams->tile));
     TRY(virga_buffer_create(context, TILE_BYTES, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
                             "ground.stream_tile_upload", &streams->upload));
-    stream_table_fill(streams->upload->memory.block.mapped);
-    virga_buffer_flush(context, streams->upload, 0, streams->upload->size);
     const virga_graphics_def def = {.vertex = VIRGA_SPIRV(ground_stream_vert),
                                     .fragment = VIRGA_SPIRV(ground_stream_frag),
                                     .layout = layout,
@@ -61,9 +59,15 @@ virga_result ground_streams_create(virga_context *context, const virga_offscreen
                                     .group = group,
                                     .name = "ground.streams"};
     TRY(virga_graphics_pipeline_create(context, &def, &streams->draw));
-    TRY(virga_recording_result(context));
 error:
     return result;
+}
+
+virga_result ground_streams_fill_tile(virga_context *context, ground_streams *streams)
+{
+    stream_table_fill(streams->upload->memory.block.mapped);
+    virga_buffer_flush(context, streams->upload, 0, streams->upload->size);
+    return virga_recording_result(context);
 }
 
 void ground_streams_upload(virga_context *context, VkCommandBuffer cmd, ground_streams *streams)
