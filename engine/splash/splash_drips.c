@@ -61,6 +61,9 @@ static virga_result check_site(const virga_log *log, const virga_drip_site *site
     if (!(site->drops >= 0 && site->drops <= MAX_DROPS_AS_ONE))
         return virga_wrong_argument(log, "virga_splash_set_drips: site %u: expected drops of 0 to %g, got %g", index,
                                     (double)MAX_DROPS_AS_ONE, (double)site->drops);
+    if (site->place == UINT32_MAX)
+        return virga_wrong_argument(log, "virga_splash_set_drips: site %u: expected place of 0 to 4294967294, got %u",
+                                    index, site->place);
     if (!(site->shelter >= 0 && site->shelter <= 1))
         return virga_wrong_argument(log, "virga_splash_set_drips: site %u: expected shelter of 0 to 1, got %g", index,
                                     (double)site->shelter);
@@ -72,7 +75,10 @@ static virga_drip_site_gpu site_of(const virga_drip_site *site, const double ori
     const double area = (double)site->catch_m2, thinner = 4 / (3 * area * NL_PER_M3);
     /* Less rain comes to the same surface, on which the film is as wide and as long. */
     virga_drip_site_gpu out = {.catch_m2 = site->catch_m2 * (1 - site->shelter),
-                               .seed = virga_hash1(0x64726970u + index)};
+                               .seed = virga_hash1(0x64726970u + index),
+                               .owner = site->place + 1};
+    if (site->place) /* its drops are not those that the index had before */
+        out.seed = virga_hash2(out.seed, site->place);
     out.drain = (float)((double)site->width_m * GRAVITY_M_S2 * (double)site->slope / (3 * VISCOSITY_M2_S) * NL_PER_M3 *
                         thinner * thinner * thinner);
     out.drops = fmaxf(site->drops, 1);

@@ -37,6 +37,7 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->drips = count_of(state, VIRGA_SPLASH_DRIPS);
     stats->drip_rain_nl = count_of(state, VIRGA_SPLASH_DRIP_IN);
     stats->drip_nl = count_of(state, VIRGA_SPLASH_DRIP_OUT);
+    stats->drip_left_nl = count_of(state, VIRGA_SPLASH_DRIP_LEFT);
     stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
     stats->splashes_cut_short = count_of(state, VIRGA_SPLASH_CUT_SHORT);
     stats->splashes_alive = state->alive;

@@ -21,7 +21,7 @@ struct virga_drip_site_gpu {
     float drops;       /* that fly as one */
     float jet;         /* 1: they fly from a place that stands; 0: the place has their velocity too */
     float velocity[3]; /* m/s, with which they leave */
-    float pad_too;
+    uint owner;        /* whose water this index has: virga_drip_site.place + 1 */
 };
 
 /* Its water, 16 bytes. */
@@ -29,7 +29,7 @@ struct virga_drip_gpu {
     uint film_nl; /* on the surface that drains to it */
     uint hang_nl; /* at the edge */
     uint drops;   /* that have fallen */
-    uint begun;   /* 0: nothing of this is written yet */
+    uint owner;   /* the site's when this was written; 0: nothing of this is written yet */
 };
 
 #ifndef VIRGA_GLSL

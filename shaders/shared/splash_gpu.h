@@ -108,12 +108,13 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_SPRAY_RETURNED 7
 #define VIRGA_SPLASH_SPRAY_PANES    8
 #define VIRGA_SPLASH_CUT_SHORT      9 /* splashes that newer ones replaced before their end */
-/* Of drips: nl of rain that drains to them; nl that fell as drops; these drops. */
-#define VIRGA_SPLASH_DRIP_IN  10
-#define VIRGA_SPLASH_DRIP_OUT 11
-#define VIRGA_SPLASH_DRIPS    12
-#define VIRGA_SPLASH_BY_MODEL 13
-#define VIRGA_SPLASH_COUNTS   173
+/* Of drips: nl of rain that drains to them; nl that fell as drops; these drops; nl of places that lost their index. */
+#define VIRGA_SPLASH_DRIP_IN   10
+#define VIRGA_SPLASH_DRIP_OUT  11
+#define VIRGA_SPLASH_DRIPS     12
+#define VIRGA_SPLASH_DRIP_LEFT 13
+#define VIRGA_SPLASH_BY_MODEL  14
+#define VIRGA_SPLASH_COUNTS    174
 
 /* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
@@ -141,7 +142,7 @@ struct virga_splash_state_gpu {
     /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
     uint sprite_groups[3];
     uint view_groups[3]; /* the same, over droplets only */
-    virga_splash_count_gpu counts[173];
+    virga_splash_count_gpu counts[174];
 };
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */

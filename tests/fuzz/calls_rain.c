@@ -387,6 +387,7 @@ void call_virga_splash_set_drips(calls *c)
         calls_floats(c, sites[i].velocity_m_s, 3, -20, 20);
         calls_floats(c, &sites[i].drops, 1, 0, 64);
         sites[i].moves = calls_slip(c, 3);
+        sites[i].place = calls_below(c, 4);
     }
     CALLS_TRY(c, h.context, calls_of(h.object, wrong ? CALLS_WRONG : CALLS_PLAIN), virga_splash_set_drips, h.object,
               calls_slip(c, 12) ? NULL : sites, count);

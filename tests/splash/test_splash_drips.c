@@ -75,7 +75,7 @@ static void assert_counted(void)
 {
     const uint64_t in = splash_fixture_count(&f, VIRGA_SPLASH_DRIP_IN),
                    out = splash_fixture_count(&f, VIRGA_SPLASH_DRIP_OUT);
-    assert_int_equal(in, on_surfaces() + out);
+    assert_int_equal(in, on_surfaces() + out + splash_fixture_count(&f, VIRGA_SPLASH_DRIP_LEFT));
     assert_int_equal(out, splash_fixture_count(&f, VIRGA_SPLASH_SPRAY_IN));
 }
 
@@ -252,6 +252,84 @@ static void sites_may_move_and_become_fewer(void **state)
     splash_fixture_close(&f);
 }
 
+/* Gives about a quarter of the indices to places 50 m away, with numbers of 0 to 7. Returns the nl that are gone. */
+static uint64_t give_indices_to_others(uint32_t step)
+{
+    uint64_t gone_nl = 0;
+    for (uint32_t i = 0; i < SITES; i++) {
+        const uint32_t hash = virga_hash2(step, i);
+        if (hash % 4)
+            continue;
+        sites[i].place = virga_hash1(hash) % 8;
+        sites[i].position_m[0] = 1050 + 4 * (double)virga_unit(hash);
+        sites[i].catch_m2 = 0.003f + 0.1f * virga_unit(virga_hash1(hash));
+        gone_nl += sites[i].place + 1 != f.drips[i].owner ? f.drips[i].film_nl + (uint64_t)f.drips[i].hang_nl : 0;
+    }
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    return gone_nl;
+}
+
+static void water_of_places_that_lose_their_index_is_counted(void **state)
+{
+    (void)state;
+    uint64_t left_nl = 0;
+    begin(true, 4096);
+    splash_fixture_step(&f, 4);
+    for (uint32_t step = 0; step < 60; step++) {
+        left_nl += give_indices_to_others(step);
+        f.rain_mm_h = step % 20 < 10 ? 150 : 0;
+        splash_fixture_step(&f, 1 + step % 8);
+        assert_counted();
+        assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_DRIP_LEFT), left_nl);
+    }
+    assert_true(left_nl > 1000000);
+    virga_splash_stats stats;
+    virga_splash_stats_get(f.splash, &stats);
+    assert_int_equal(stats.drip_left_nl, left_nl);
+    splash_fixture_close(&f);
+}
+
+/* When the rain is over and another place, which is dry, gets an index, nothing falls there; others drip on, bit by bit
+ * as if nothing had changed. With rain it begins with the film of that rain. */
+static void another_place_begins_without_the_water_of_the_one_before(void **state)
+{
+    (void)state;
+    virga_drip_gpu alone[SITES];
+    for (uint32_t changed = 0; ; changed++) {
+        begin(true, 4096);
+        play(60, 15);
+        f.rain_mm_h = 0;
+        for (uint32_t i = 0; i < SITES && changed; i += 2) {
+            sites[i].place = 7 + i;
+            sites[i].position_m[0] += 50;
+        }
+        REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+        play(60, 4);
+        assert_counted();
+        if (changed)
+            break;
+        memcpy(alone, f.drips, sizeof alone);
+        splash_fixture_close(&f);
+    }
+    for (uint32_t i = 0; i < SITES; i += 2) {
+        assert_true(alone[i].film_nl > 1000);
+        assert_int_equal(f.drips[i].film_nl + f.drips[i].hang_nl + f.drips[i].drops, 0);
+        assert_memory_equal(&f.drips[i + 1], &alone[i + 1], sizeof alone[0]);
+    }
+    for (uint32_t i = 0; i < f.state->staying; i++)
+        assert_true((double)f.droplets[i].position[0] + f.splash->anchor_m[0] < 1040);
+    f.rain_mm_h = RAIN;
+    for (uint32_t i = 0; i < SITES; i++)
+        sites[i].place = 1;
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    splash_fixture_step(&f, 1);
+    for (uint32_t i = 0; i < SITES; i++) {
+        const double steady = cbrt(inflow_of(&sites[i]) / flow_of(&sites[i], 1));
+        assert_float_equal((double)f.drips[i].film_nl / steady, 1, 0.01);
+    }
+    splash_fixture_close(&f);
+}
+
 /* Edges of a car at 30 m/s, the speed of which is theirs: while the air has hardly slowed them a drop is below its edge
  * as if both stood, however long a step is. */
 static void an_edge_that_moves_takes_its_drops_along(void **state)
@@ -352,6 +430,9 @@ static void wrong_sites_are_refused(void **state)
     sites[3].velocity_m_s[2] = -101;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     choose_sites();
+    sites[3].place = UINT32_MAX;
+    assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
+    choose_sites();
     sites[3].position_m[1] = INFINITY;
     assert_int_equal(virga_splash_set_drips(splash, sites, SITES), VIRGA_ERROR_INVALID);
     assert_int_equal(virga_splash_set_drips(splash, NULL, 0), VIRGA_OK);
@@ -369,6 +450,8 @@ int main(void)
         cmocka_unit_test(drops_fall_from_their_edges),
         cmocka_unit_test(steps_of_any_length_give_the_same_bits),
         cmocka_unit_test(sites_may_move_and_become_fewer),
+        cmocka_unit_test(water_of_places_that_lose_their_index_is_counted),
+        cmocka_unit_test(another_place_begins_without_the_water_of_the_one_before),
         cmocka_unit_test(an_edge_that_moves_takes_its_drops_along),
         cmocka_unit_test(a_pipe_pours_with_its_velocity),
         cmocka_unit_test(wrong_sites_are_refused),

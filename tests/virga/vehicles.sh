@@ -68,7 +68,7 @@ if not last["drops"] > 20:
     sys.exit("it does not drip")
 if any(line["drops"] or line["rain_ul"] for line in dry):
     sys.exit("it drips where it should not")
-if abs(last["rain_ul"] - last["fell_ul"] - last["on_surfaces_ul"]) > 1e-3:
+if abs(last["rain_ul"] - last["fell_ul"] - last["on_surfaces_ul"]) > 1e-3 or last["left_ul"]:
     sys.exit("water is lost")
 END
 

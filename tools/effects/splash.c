@@ -290,14 +290,15 @@ static void write_spray(const virga_splash_stats *now, jsonl *stats)
     jsonl_end(stats);
 }
 
-/* Rain that has drained to edges: fell + on_surfaces, to the last nanolitre. What fell is part of spray_ul. */
+/* Rain that has drained to edges: fell + on_surfaces + left, to the last nanolitre. What fell is part of spray_ul. */
 static void write_drips(const virga_splash_stats *now, jsonl *stats)
 {
     jsonl_begin_object(stats, "drips");
     jsonl_uint64(stats, "drops", now->drips);
     jsonl_number(stats, "rain_ul", (double)now->drip_rain_nl * 1e-3);
     jsonl_number(stats, "fell_ul", (double)now->drip_nl * 1e-3);
-    jsonl_number(stats, "on_surfaces_ul", (double)(now->drip_rain_nl - now->drip_nl) * 1e-3);
+    jsonl_number(stats, "on_surfaces_ul", (double)(now->drip_rain_nl - now->drip_nl - now->drip_left_nl) * 1e-3);
+    jsonl_number(stats, "left_ul", (double)now->drip_left_nl * 1e-3);
     jsonl_end(stats);
 }
 

@@ -254,6 +254,13 @@ typedef struct virga_drip_site {
      * What is on the surface still runs off. Default 0. */
     float shelter;
 
+    /* [0; 4294967294] number of the place. Water belongs to an index as long as the same place has it. When another
+     * number comes there, what the old place had is gone (virga_splash_stats.drip_left_nl), and the new one begins as
+     * at the first step: see settings.drip_wet. So a host with more places than def.max_drips numbers them, and gives
+     * the indices to those near the camera. Where all have the same number, water stays with its index. Costs nothing.
+     * Default 0. */
+    uint32_t place;
+
     /* true: the place itself moves with velocity_m_s, as the edge of a car or an umbrella, and position_m is where it
      * is at the end of the frame. Its drops have its velocity, which may be -100 to 100 then, and fall from where it
      * was when they left it. false: it stands. Default false. */
@@ -262,15 +269,16 @@ typedef struct virga_drip_site {
 
 /* Says where rain water drips; NULL and 0: nowhere. Rain (step_info.rain_mm_h) runs over each surface as a film,
  * gathers at the edge, and falls as drops of drip_min_mm to drip_max_mm. They fly like spray, splash where they land,
- * and give their water to the ground: rain that drains = film + drops that hang + drops that fell, to the nanolitre.
- * The rain that the surface gets is the mean for its area, while the rain's own drops still land on it.
+ * and give their water to the ground: rain that drains = film + drops that hang + drops that fell + what is gone with
+ * places whose index another place got, to the nanolitre. The rain that the surface gets is the mean for its area,
+ * while the rain's own drops still land on it.
  *
- * `sites` is copied. Takes effect in the next step. A site keeps the water of the site that had its index before; call
- * it again after a state was loaded, as sites are not part of it. Where something moves, call it before each step with
- * its places behind those that stand: they keep their water by their index. `count`: at most def.max_drips, else
- * VIRGA_ERROR_INVALID, as with values out of range; nothing changes then. Costs some ns a site here and a copy of 48
- * bytes a site in the next step, and in each tick about 0.3 us a site on software Vulkan, which computes them one after
- * the other. Thread-safety: as the splashes. */
+ * `sites` is copied. Takes effect in the next step. A site keeps the water of the site that had its index before, if
+ * both are the same place (virga_drip_site.place). Call it again after a state was loaded, as sites are not part of it.
+ * Where something moves, call it before each step with its places behind those that stand: they keep their water by
+ * their index. `count`: at most def.max_drips, else VIRGA_ERROR_INVALID, as with values out of range; nothing changes
+ * then. Costs some ns a site here and a copy of 48 bytes a site in the next step, and in each tick about 0.3 us a site
+ * on software Vulkan, which computes them one after the other. Thread-safety: as the splashes. */
 VIRGA_API virga_result virga_splash_set_drips(virga_splash *splash, const virga_drip_site *sites, uint32_t count);
 
 /* The ground that spray falls on: what virga_ground_cells_get and virga_ground_maps_get say, after the ground's step.
@@ -403,9 +411,10 @@ typedef struct virga_splash_stats {
      * fell back, that fell on the ground or beside it, and that hit panes. What is left is in the air. */
     uint64_t spray_nl, spray_back_nl, spray_returned_nl, spray_panes_nl;
 
-    /* Drops that fell from edges, their water, and the rain that drained to edges. The difference is on surfaces and
-     * edges, see virga_splash_set_drips. What fell is part of spray_nl. */
-    uint64_t drips, drip_nl, drip_rain_nl;
+    /* Drops that fell from edges, their water, the rain that drained to edges, and the water of places whose index
+     * another place got (virga_drip_site.place). drip_rain_nl - drip_nl - drip_left_nl is on surfaces and edges, see
+     * virga_splash_set_drips. What fell is part of spray_nl. */
+    uint64_t drips, drip_nl, drip_rain_nl, drip_left_nl;
 
     /* At the end of the newest tick: splashes that have begun and are not over, and droplets in the air. */
     uint32_t splashes_alive, droplets_alive;

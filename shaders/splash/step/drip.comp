@@ -1,6 +1,8 @@
 // drip.comp - rain water that drains to edges, hangs there and falls as drops: they go into the list of droplets that
 // are handed over, behind those that are there. What finds no room stays where it is.
 //
+// What an index has is the water of one place. If another place has got it, that water is gone, and counted.
+//
 // All ticks of a step at once. Every site is stepped twice: to count its drops, and to write them behind those of the
 // sites before it.
 // One workgroup, in which each invocation takes a run of sites. Reads: sites. Writes: their water, the list, counts.
@@ -45,7 +47,7 @@ virga_drip_gpu begin_drip(virga_drip_site_gpu site)
 {
     const float inflow = site.catch_m2 * tick.drip_nl / tick.tick_s;
     const bool wet = tick.drip_wet != 0u && inflow > 0.0;
-    virga_drip_gpu drip = virga_drip_gpu(0u, 0u, 0u, 1u);
+    virga_drip_gpu drip = virga_drip_gpu(0u, 0u, 0u, site.owner);
     if (wet) {
         drip.film_nl = uint(min(pow(inflow / site.drain, 1.0 / 3.0), 0.5 * float(MAX_FILM_NL)));
         drip.hang_nl = uint(virga_unit(virga_hash1(site.seed)) * float(water_of(site, diameter_of(site.seed, 0u))));
@@ -96,7 +98,11 @@ uint step_site(uint i, bool last, uint room, inout uint index, inout uvec3 water
     const virga_drip_site_gpu site = sites[i];
     virga_drip_gpu drip = drips[i];
     uint fell = 0u, caught = 0u;
-    if (drip.begun == 0u) {
+    if (drip.owner != site.owner) {
+        if (last) {
+            count(VIRGA_SPLASH_DRIP_LEFT, drip.film_nl);
+            count(VIRGA_SPLASH_DRIP_LEFT, drip.hang_nl);
+        }
         drip = begin_drip(site);
         caught = drip.film_nl + drip.hang_nl;
     }
