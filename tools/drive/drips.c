@@ -6,19 +6,20 @@
 
 #define NEAREST_M 2.0 /* what is nearer shows no more: its drops leave the picture sooner */
 #define MOVED_M   1.0 /* the camera, until places are chosen anew */
-#define SMALLEST  0.5 /* catchment of the new place, of the old one's */
 #define KEPT      1.5 /* what has a slot counts as so much more, so that places do not change back at once */
 
 bool drip_places_create(virga_drip_site *all, uint32_t count, uint32_t slots, drip_places *places)
 {
-    const size_t room = (size_t)count + 2 * (size_t)slots + 1;
+    const size_t room = (size_t)count + (size_t)slots + 1;
     *places = (drip_places){.all = all,
                             .count = count,
                             .slots = slots,
                             .slot = malloc(room * sizeof *places->slot),
                             .ranks = malloc(room * sizeof *places->ranks)};
-    for (uint32_t i = 0; places->slot && i < count; i++)
+    for (uint32_t i = 0; places->slot && i < count; i++) {
         places->slot[i] = slots;
+        places->all[i].place = i + 1;
+    }
     return places->slot && places->ranks;
 }
 
@@ -57,30 +58,22 @@ static void rank(drip_places *p, const double eye_m[3])
     qsort(p->ranks, p->count, sizeof *p->ranks, by_value);
 }
 
-/* Gives the slots of those that are no longer among the first `count` to those that are now. A place takes over the
- * water of the one before. On a smaller surface that film is thicker, and runs off with the cube of that; so it passes
- * to one of half the catchment at least, and a larger place drips on until such a one comes. */
+/* Gives the slots of those that are no longer among the first `count` to those that are now. */
 static void pass_slots_on(drip_places *p, uint32_t count)
 {
-    drip_rank *going = p->ranks + p->count, *coming = going + p->slots;
+    drip_rank *coming = p->ranks + p->count;
     uint32_t leave = 0, enter = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
-        const uint32_t place = p->ranks[i].place;
-        const drip_rank by_area = {(double)p->all[place].catch_m2, place};
-        if (i >= count && p->slot[place] < p->slots)
-            going[leave++] = by_area;
-        if (i < count && p->slot[place] >= p->slots)
-            coming[enter++] = by_area;
-    }
-    qsort(going, leave, sizeof *going, by_value);
-    qsort(coming, enter, sizeof *coming, by_value);
+    for (uint32_t i = 0; i < count; i++)
+        if (p->slot[p->ranks[i].place] >= p->slots)
+            coming[enter++] = p->ranks[i];
     for (uint32_t i = 0; !p->chosen && i < enter; i++) /* at first all slots are free */
         p->slot[coming[i].place] = i;
-    for (uint32_t c = 0, g = 0; c < enter && g < leave; g++) {
-        if (coming[c].value < SMALLEST * going[g].value)
+    for (uint32_t i = count; i < p->count && leave < enter; i++) {
+        uint32_t *old = &p->slot[p->ranks[i].place];
+        if (*old >= p->slots)
             continue;
-        p->slot[coming[c++].place] = p->slot[going[g].place];
-        p->slot[going[g].place] = p->slots;
+        p->slot[coming[leave++].place] = *old;
+        *old = p->slots;
     }
 }
 

@@ -15,18 +15,18 @@ typedef struct drip_places {
     uint32_t count;
     uint32_t slots;   /* at most so many drip at a time */
     uint32_t *slot;   /* of each place; `slots`: it has none */
-    drip_rank *ranks; /* of all places, by what they show; room for what changes behind them */
+    drip_rank *ranks; /* of all places, by what they show; room behind them for those that come */
     double eye_m[3];  /* for which they were chosen ... */
     bool chosen;      /* ... if they were */
 } drip_places;
 
-/* Takes `all`, of malloc, and frees it in the end. False: no memory. */
+/* Takes `all`, of malloc, numbers its places from 1 on, and frees it in the end. False: no memory. */
 bool drip_places_create(virga_drip_site *all, uint32_t count, uint32_t slots, drip_places *places);
 void drip_places_free(drip_places *places); /* accepts one that is all zero */
 
 /* Chooses for a camera at `eye_m` if it has moved on by a metre, and writes the chosen to `sites`, slot by slot.
- * Returns how many: all that there are, or all slots. What stays chosen keeps its slot, as the water of a place is its
- * slot's. */
+ * Returns how many: all that there are, or all slots. What stays chosen keeps its slot, and so its water; a slot whose
+ * place has another number than before begins anew. */
 uint32_t drip_places_choose(drip_places *places, const double eye_m[3], virga_drip_site *sites);
 
 #endif
