@@ -291,6 +291,8 @@ class _Glb:
         out = {"name": m["name"], "pbrMetallicRoughness": pbr}
         if "image" in m:
             pbr["baseColorTexture"] = {"index": used.index(m["image"])}
+        if "joints" in m:
+            out["occlusionTexture"] = {"index": used.index(m["joints"])}
         if "bump" in m:
             out["normalTexture"] = {"index": used.index(m["bump"])}
         if "emit" in m:

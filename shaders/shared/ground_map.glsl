@@ -103,6 +103,38 @@ float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at
     return mix(shows ? dark : mean, mean, far);
 }
 
+// ---- joints between stones
+//
+// Liquid that wets the walls of a pore of radius r, at contact angle theta, is drawn into it by gamma cos(theta) / r and
+// held back by its viscosity mu, and gets to x with x^2 = r gamma cos(theta) t / (2 mu) (Washburn 1921, The dynamics of
+// capillary flow, from memory). In the sand of a joint, r = 0.03 mm and cos(theta) = 0.5: 2 cm in a second and 7 cm in
+// ten. So along a joint the water of a cell is soon everywhere alike, and shows no spots. In concrete or stone pores are
+// of half a micrometre: 3 mm in a second, 9 mm in ten. But finer pores pull harder, and take the water out of the sand,
+// whose grains keep a film. A joint of width w has caught w times `wet` (of the pores' volume on an area); where a tenth
+// of the pores is full the stone is dark, as under a spot. Beside it, on each side, a strip of width x is so:
+//
+//     0.1 (2 x) = wet (w + 2 x),   x = w wet / (2 (0.1 - wet)),
+//
+// as the strip has its own rain, too. Joints are the first to be dark along all their length, and the last to dry.
+
+// Width of the dark strip on each side, at most most_m.
+float virga_ground_joint_strip(float wet, float width_m, float most_m)
+{
+    return min(0.5 * width_m * wet / max(0.1 - wet, 1e-6), most_m);
+}
+
+// [0; 1] Darkness at a distance from a joint's edge, < 0 in the joint: by the grains' films in it and by the strip
+// beside it, which fades over its outer half. `pixel_m`: over so much the result is averaged. 0 from most_m on.
+float virga_ground_joint(float wet, float away_m, float width_m, float most_m, float pixel_m)
+{
+    const float strip = virga_ground_joint_strip(wet, width_m, most_m / 1.5);
+    const float pixel = clamp(pixel_m, 1e-6, 2.0 * most_m);
+    const float fade = min(max(0.5 * strip, 0.5 * pixel), most_m - strip);
+    const float joint = clamp(0.5 - away_m / pixel, 0.0, 1.0);
+    const float both = clamp(0.5 + 0.5 * (strip - away_m) / fade, 0.0, 1.0);
+    return joint * min(10.0 * wet, 1.0) + max(both - joint, 0.0);
+}
+
 // Ground that is steeper than this is a step from one surface to another.
 const float virga_ground_steepest = 1.2;
 

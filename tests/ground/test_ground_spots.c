@@ -18,7 +18,7 @@ typedef struct square {
     int32_t low_cell[2];
     float first[2], apart, pixel_cells;
     int32_t cells;
-    float wet;
+    float wet, joint_m, most_m;
 } square;
 
 static struct {
@@ -241,6 +241,37 @@ static void wide_pixels_have_the_mean_of_the_cell(void **state)
     assert_float_equal((double)read_square(&one)[0], share * (0.69 + 0.31 * share), 1e-6);
 }
 
+/* Of a joint 10 mm wide, in steps of 30 um: in the joint the darkness of its grains; beside it a strip that holds what
+ * the joint has caught and its own rain, with a tenth of the pores full; nothing from 12 mm on. */
+static void strips_beside_a_joint_hold_its_water(void **state)
+{
+    (void)state;
+    static const float wets[6] = {0, 0.004f, 0.02f, 0.05f, 0.09f, 0.5f}, pixels_m[4] = {1e-4f, 1e-3f, 3e-3f, 0.02f};
+    const double width = 0.010, most = 0.012, apart = 3e-5;
+    put_map();
+    for (int i = 0; i < 24; i++) {
+        const double wet = (double)wets[i / 4], pixel = (double)pixels_m[i % 4];
+        const square line = {.first = {-0.015f, 0}, .apart = (float)apart, .wet = wets[i / 4], .cells = CELLS,
+                             .pixel_cells = pixels_m[i % 4], .joint_m = (float)width, .most_m = (float)most};
+        const float *found = read_square(&line);
+        const double grains = fmin(10 * wet, 1), strip = fmin(wet < 0.1 ? 0.5 * width * wet / (0.1 - wet) : 1, 0.008);
+        double sum = 0;
+        for (int k = 0; k < SIDE; k++) {
+            const double away = -0.015 + apart * k;
+            assert_true(found[k] >= 0 && found[k] <= 1);
+            if (away < -0.5 * pixel)
+                assert_float_equal((double)found[k], grains, 1e-5);
+            if (away > most)
+                assert_float_equal((double)found[k], 0, 1e-5);
+            sum += apart * (double)found[k];
+        }
+        if (pixel < most) /* wider ones are cut off at most_m */
+            assert_float_equal(sum, 0.015 * grains + strip, 6e-5);
+        if (strip < 0.008)
+            assert_float_equal(0.1 * 2 * strip, wet * (width + 2 * strip), 1e-8);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
 
 int main(void)
@@ -253,6 +284,7 @@ int main(void)
         TEST(bits_side_by_side_have_no_gap),
         TEST(spots_stay_where_they_are_when_the_window_moves),
         TEST(wide_pixels_have_the_mean_of_the_cell),
+        TEST(strips_beside_a_joint_hold_its_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -276,6 +276,54 @@ static void mips_keep_coverage(void **state)
     free(rgba);
 }
 
+/* glTF's occlusion, of a picture of two texels: it is kept beside the color, which it does not weight. */
+static void joints_are_beside_the_color(void **state)
+{
+    (void)state;
+    const uint8_t color[8] = {200, 100, 50, 255, 20, 10, 0, 255}, occlusion[16] = {7, 0, 0, 255, 7, 0, 0, 255,
+                                                                                  255, 0, 0, 255, 255, 0, 0, 255};
+    host_picture plain, depth, both;
+    assert_true(host_picture_from_rgba(color, 2, 1, &plain));
+    assert_true(host_picture_from_rgba(occlusion, 4, 1, &depth));
+    assert_true(host_picture_add_joints(&plain, &depth, &both));
+    const uint8_t expected[8] = {200, 100, 50, 7, 20, 10, 0, 255};
+    assert_memory_equal(both.texels, expected, sizeof expected);
+    assert_true(host_picture_make_mips(&plain, -1) && host_picture_make_mips(&both, -1));
+    assert_int_equal(both.levels, 2);
+    assert_memory_equal(both.texels + 8, plain.texels + 8, 3);
+    assert_int_equal(both.texels[11], 131);
+    host_picture_free(&plain);
+    host_picture_free(&depth);
+    host_picture_free(&both);
+}
+
+#define BASE  "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"
+#define DEPTH "\"occlusionTexture\":{\"index\":1}"
+
+/* What is cut out or transparent has alpha of its own. */
+static void only_opaque_materials_have_joints(void **state)
+{
+    fixture *f = *state;
+    const int order[3] = {0, 1, 2};
+    host_mesh mesh;
+    const char *path = write_lamps(
+        "{\"name\":\"a\"," BASE "," DEPTH "},{\"name\":\"b\"," BASE "},{\"name\":\"c\",\"alphaMode\":\"BLEND\","
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,0.5]}," DEPTH "}],"
+        "\"textures\":[{\"source\":0},{\"source\":1}],\"images\":[{\"uri\":\"data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mM4kWIEAANWAV/W6lf+AAAAAElFTkSuQmCC\"},{\"uri\":"
+        "\"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR42mNg+A8AAQIBANEay48AAAAASUV"
+        "ORK5CYII=\"}",
+        order, false);
+    if (!host_mesh_load(&f->device, path, NULL, &mesh, f->error, sizeof f->error))
+        fail_msg("%s", f->error);
+    for (int i = 0; i < 3; i++) {
+        const host_material *material = &mesh.materials[mesh.primitives[i].material];
+        assert_true(material->base_texture >= 0);
+        assert_int_equal(material->joints, material->name[0] == 'a');
+    }
+    host_mesh_destroy(&f->device, &mesh);
+}
+
 static void materials_have_names(void **state)
 {
     (void)state;
@@ -296,6 +344,8 @@ int main(void)
         cmocka_unit_test(strengths_that_make_no_sense_are_one),
         cmocka_unit_test(missing_picture),
         cmocka_unit_test(mips_keep_coverage),
+        cmocka_unit_test(joints_are_beside_the_color),
+        cmocka_unit_test(only_opaque_materials_have_joints),
         cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -31,6 +31,7 @@ typedef struct host_material {
     bool two_sided;
     int32_t base_texture;     /* into host_mesh::textures, or -1 */
     int32_t emissive_texture; /* likewise */
+    bool joints;              /* the base texture's alpha is that of host_picture_add_joints */
 } host_material;
 
 typedef struct host_primitive {

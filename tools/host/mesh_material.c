@@ -69,13 +69,15 @@ static bool load_picture(host_mesh_build *build, const char *name, host_picture 
     return false;
 }
 
-/* Index of the texture with this name, which is loaded on first use; -1 if that fails. */
-static int32_t find_picture(host_mesh_build *build, const char *name)
+/* Index of the entry with this name, empty if it is new; -1 without memory. A failed texture keeps its entry, so that
+ * there is only one warning. */
+static int32_t add_picture(host_mesh_build *build, const char *name, bool *is_new)
 {
     host_mesh *mesh = build->mesh;
+    *is_new = false;
     for (uint32_t i = 0; i < mesh->texture_count; i++)
         if (strcmp(build->picture_keys[i], name) == 0)
-            return build->pictures[i].texels ? (int32_t)i : -1;
+            return (int32_t)i;
     host_picture *pictures = realloc(build->pictures, (mesh->texture_count + 1) * sizeof *pictures);
     if (!pictures)
         return -1;
@@ -87,10 +89,20 @@ static int32_t find_picture(host_mesh_build *build, const char *name)
     keys[mesh->texture_count] = strdup(name);
     if (!keys[mesh->texture_count])
         return -1;
-    host_picture *picture = &pictures[mesh->texture_count];
-    memset(picture, 0, sizeof *picture);
-    mesh->texture_count++; /* a failed texture keeps its entry, so that there is only one warning */
-    return load_picture(build, name, picture) ? (int32_t)mesh->texture_count - 1 : -1;
+    memset(&pictures[mesh->texture_count], 0, sizeof *pictures);
+    *is_new = true;
+    return (int32_t)mesh->texture_count++;
+}
+
+/* Index of the texture with this name, which is loaded on first use; -1 if that fails. */
+static int32_t find_picture(host_mesh_build *build, const char *name)
+{
+    bool is_new;
+    const int32_t index = add_picture(build, name, &is_new);
+    if (index < 0)
+        return -1;
+    const bool good = is_new ? load_picture(build, name, &build->pictures[index]) : build->pictures[index].texels != NULL;
+    return good ? index : -1;
 }
 
 static int32_t find_texture(host_mesh_build *build, const struct aiMaterial *in, enum aiTextureType type)
@@ -178,6 +190,26 @@ static void read_alpha(const host_mesh_build *build, const struct aiMaterial *in
     }
 }
 
+/* A texture of its own with the joints of a material whose texture has no alpha. Without memory it has no joints. */
+static void read_joints(host_mesh_build *build, const struct aiMaterial *in, host_material *out)
+{
+    if (out->base_texture < 0 || out->alpha != HOST_ALPHA_OPAQUE || build->pictures[out->base_texture].alpha)
+        return;
+    const int32_t occlusion = find_texture(build, in, aiTextureType_LIGHTMAP); /* Assimp's name for glTF's occlusion */
+    if (occlusion < 0)
+        return;
+    char key[4096];
+    snprintf(key, sizeof key, "%s with the joints of %s", build->picture_keys[out->base_texture],
+             build->picture_keys[occlusion]);
+    bool is_new;
+    const int32_t both = add_picture(build, key, &is_new);
+    if (both < 0 || (is_new && !host_picture_add_joints(&build->pictures[out->base_texture],
+                                                        &build->pictures[occlusion], &build->pictures[both])))
+        return;
+    out->joints = build->pictures[both].texels != NULL;
+    out->base_texture = out->joints ? both : out->base_texture;
+}
+
 static void read_material(host_mesh_build *build, const struct aiMaterial *in, host_material *out)
 {
     struct aiString name = {0};
@@ -204,6 +236,7 @@ static void read_material(host_mesh_build *build, const struct aiMaterial *in, h
         out->metallic *= mean[2];
     }
     read_alpha(build, in, out);
+    read_joints(build, in, out);
 }
 
 bool host_mesh_build_materials(host_mesh_build *build)

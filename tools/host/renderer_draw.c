@@ -59,6 +59,7 @@ static void fill_surface(const host_primitive *primitive, const host_material *m
     bits += material->base_texture >= 0 ? HOST_HAS_BASE_TEXTURE : 0;
     bits += material->emissive_texture >= 0 ? HOST_HAS_EMISSIVE_TEXTURE : 0;
     bits += material->alpha == HOST_ALPHA_GLASS ? HOST_IS_GLASS : 0;
+    bits += material->joints ? HOST_HAS_JOINTS : 0;
     bits += primitive->ground ? HOST_GROUND * (1 + primitive->surface) : 0;
     memcpy(out->base_color, material->base_color, sizeof out->base_color);
     memcpy(out->emissive, material->emissive, 3 * sizeof(float));

@@ -101,6 +101,20 @@ void host_picture_mean(const host_picture *picture, float mean[4])
         mean[c] = (float)(sum[c] / (255.0 * (double)count));
 }
 
+bool host_picture_add_joints(const host_picture *color, const host_picture *occlusion, host_picture *out)
+{
+    if (!host_picture_from_rgba(color->texels, color->width, color->height, out))
+        return false;
+    for (uint32_t y = 0; y < color->height; y++)
+        for (uint32_t x = 0; x < color->width; x++) {
+            const size_t ox = (size_t)x * occlusion->width / color->width,
+                         oy = (size_t)y * occlusion->height / color->height;
+            out->texels[4 * ((size_t)y * color->width + x) + 3] = occlusion->texels[4 * (oy * occlusion->width + ox)];
+        }
+    out->joints = true;
+    return true;
+}
+
 /* ---- mips --------------------------------------------------------------------------------------------------- */
 
 static float linear_of[256];
@@ -137,8 +151,9 @@ static uint32_t half_of(uint32_t size)
     return size > 1 ? size / 2 : 1;
 }
 
-/* One texel of a level from up to four of the level above. */
-static void average(const uint8_t *above, uint32_t width, uint32_t height, uint32_t x, uint32_t y, uint8_t out[4])
+/* One texel of a level from up to four of the level above, weighted by alpha or all alike. */
+static void average(const uint8_t *above, uint32_t width, uint32_t height, uint32_t x, uint32_t y, bool alike,
+                    uint8_t out[4])
 {
     float weighted[3] = {0}, plain[3] = {0}, alpha = 0.0f;
     for (uint32_t i = 0; i < 4; i++) {
@@ -154,7 +169,7 @@ static void average(const uint8_t *above, uint32_t width, uint32_t height, uint3
         }
     }
     for (int c = 0; c < 3; c++)
-        out[c] = srgb_of(alpha > 0.0f ? weighted[c] / alpha : plain[c] / 4.0f);
+        out[c] = srgb_of(alpha > 0.0f && !alike ? weighted[c] / alpha : plain[c] / 4.0f);
     out[3] = (uint8_t)(alpha / 4.0f * 255.0f + 0.5f);
 }
 
@@ -223,7 +238,7 @@ bool host_picture_make_mips(host_picture *picture, float cutoff)
     for (uint32_t l = 1; l < levels; l++)
         for (uint32_t y = 0; y < heights[l]; y++)
             for (uint32_t x = 0; x < widths[l]; x++)
-                average(texels + offsets[l - 1], widths[l - 1], heights[l - 1], x, y,
+                average(texels + offsets[l - 1], widths[l - 1], heights[l - 1], x, y, picture->joints,
                         texels + offsets[l] + ((size_t)y * widths[l] + x) * 4);
     if (picture->alpha)
         for (uint32_t l = levels - 1; l-- > 0;)

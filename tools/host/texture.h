@@ -10,6 +10,7 @@ typedef struct host_picture {
     uint8_t *texels;
     size_t size; /* bytes of all levels */
     bool alpha;  /* some texel is not opaque */
+    bool joints; /* its alpha is no alpha: see host_picture_add_joints */
 } host_picture;
 
 /* Decodes PNG, JPEG, BMP, TGA and other formats of stb_image, from memory or from a file, without mip levels. */
@@ -19,6 +20,10 @@ bool host_picture_read(const char *path, host_picture *picture, char *error, siz
 
 /* Copies RGBA bytes. */
 bool host_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, host_picture *picture);
+
+/* Makes an opaque picture with joints from one without and glTF's occlusion: instead of alpha it has the occlusion's
+ * red, repeated or left out where the sizes differ. False: no memory. */
+bool host_picture_add_joints(const host_picture *color, const host_picture *occlusion, host_picture *out);
 
 /* Builds the mip levels. `cutoff` >= 0 is the alpha below which a texel is cut out. Each level then keeps the first
  * level's share of texels above it, so that foliage does not get thinner with distance. -1: no cut-out. */

@@ -75,8 +75,8 @@ struct host_frame_gpu {
 struct host_surface_gpu { /* push constants */
     HOST_VEC4 base_color; /* alpha: times the texture's */
     HOST_VEC4 emissive;   /* w: roughness */
-    /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass; from 8 on, for ground,
-     * 1 + its material */
+    /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass, 8 joints; from 16 on,
+     * for ground, 1 + its material */
     HOST_VEC4 traits;
     HOST_VEC4 lamps; /* x: bits of the lights that may reach it; y: material as a wall, -1: it stays dry;
                          * z: part of its diffuse light that comes through */
@@ -172,6 +172,7 @@ struct host_accumulate_gpu { /* push constants */
 #define HOST_HAS_BASE_TEXTURE     1
 #define HOST_HAS_EMISSIVE_TEXTURE 2
 #define HOST_IS_GLASS             4
-#define HOST_GROUND               8 /* times 1 + the material */
+#define HOST_HAS_JOINTS           8 /* in the base texture's alpha */
+#define HOST_GROUND               16 /* times 1 + the material */
 
 #endif

@@ -262,7 +262,7 @@ void main()
 {
     const float road = texture(base_texture, gl_FragCoord.xy / frame.screen.xy).r;
     const vec3 v = normalize(-in_relative), n = normalize(in_normal);
-    const Water water = water_at(in_relative, n);
+    const Water water = water_at(in_relative, n, 1.0);
     const float dry = 0.2; // whatever is grey darkens alike
     vec3 albedo = vec3(dry), f0 = vec3(0.04);
     float roughness = surface.emissive.w;
@@ -347,7 +347,7 @@ void main()
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
     vec3 albedo = base.rgb * (1.0 - metallic);
 #ifdef WET
-    Water water = water_at(in_relative, n);
+    Water water = water_at(in_relative, n, (bits & HOST_HAS_JOINTS) != 0 ? base.a : 1.0);
     wet_material(water, metallic, albedo, roughness, f0);
     vec2 wetness = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
 #else

@@ -23,6 +23,7 @@ layout(set = 0, binding = 8) uniform sampler2D far_map;
 
 struct Water {
     float damp;     // [0; 1] of the pores
+    float joint;    // [0; 1] the same for water of joints, which darkens, but lies too deep to shine
     float film;     // [0; 1] share of the surface that is a film
     float puddle;   // [0; 1] share that has a surface of its own
     float depth_mm;
@@ -60,7 +61,19 @@ virga_ground_wetness far_water(vec3 relative, float height_m)
     return virga_ground_far_at(far_map, cells, at, height_m, open, 1.0 / max(frame.ground_far.y, 1e-6));
 }
 
-Water water_at(vec3 relative, vec3 n)
+// glTF's occlusion is 0 in the middle of a joint, and 1 where its water does not come. It is taken as a distance.
+const float JOINT_WIDTH_M = 0.010, JOINT_TO_OPEN_M = 0.017;
+
+// Darkness by the water of joints. Where a pixel is as wide as a joint it fades.
+float joints_at(float occlusion, float wet, float pixel_m)
+{
+    const float away_m = occlusion * JOINT_TO_OPEN_M - 0.5 * JOINT_WIDTH_M;
+    const float most_m = JOINT_TO_OPEN_M - 0.5 * JOINT_WIDTH_M;
+    return virga_ground_joint(wet, away_m, JOINT_WIDTH_M, most_m, pixel_m) * (1.0 - smoothstep(0.006, 0.02, pixel_m));
+}
+
+// `occlusion`: 1 without joints.
+Water water_at(vec3 relative, vec3 n, float occlusion)
 {
     const float inv_cell = frame.ground_low.w;
     const vec2 at = (relative.xz - frame.ground_low.xz) * inv_cell;
@@ -73,13 +86,14 @@ Water water_at(vec3 relative, vec3 n)
     if (frame.ground_far.y > 0.0 && near < 1.0)
         wet = virga_ground_mix(far_water(relative, height_m), wet, near);
     const float level = inv_cell > 0.0 ? smoothstep(HOST_LEVEL_Y, 0.6, n.y) : 0.0;
+    const float cell_m = 1.0 / max(inv_cell, 1e-6), pixel_m = pixel * cell_m;
     Water water;
     water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
+    water.joint = level * 0.85 * joints_at(occlusion, wet.wet, pixel_m);
     water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
     // Full pores close over: the most that they shine is three quarters of what a film does.
     water.puddle = level * max(smoothstep(0.05, 0.4, wet.depth_mm), 0.75 * smoothstep(0.3, 0.9, wet.wet));
     water.depth_mm = level * wet.depth_mm;
-    const float cell_m = 1.0 / max(inv_cell, 1e-6), pixel_m = pixel * cell_m;
     float drawn;
     water.normal = water_normal(relative, pixel_m, drawn);
     // Beckmann's alpha^2 is twice the variance of a slope: that of waves which are not drawn, and that within a pixel
@@ -109,9 +123,10 @@ float porosity(float roughness) { return clamp((roughness - 0.5) / 0.4, 0.0, 1.0
 // What lies under the water, wet: darker where it is porous, glossier under a film.
 void wet_material(Water water, float metallic, inout vec3 albedo, inout float roughness, inout vec3 f0)
 {
-    const float dark = mix(1.0, mix(1.0, 0.2, porosity(roughness)), water.damp * (1.0 - metallic));
+    const float damp = max(water.damp, water.joint);
+    const float dark = mix(1.0, mix(1.0, 0.2, porosity(roughness)), damp * (1.0 - metallic));
     // Saturated colours darken more: light bounces in the pores more often before it comes out.
-    albedo = mix(albedo * dark, albedo * albedo * dark / max(dot(albedo, vec3(1.0 / 3.0)), 1e-3), 0.35 * water.damp);
+    albedo = mix(albedo * dark, albedo * albedo * dark / max(dot(albedo, vec3(1.0 / 3.0)), 1e-3), 0.35 * damp);
     roughness = mix(roughness, max(0.3 * roughness, 0.12), max(water.film, 0.35 * water.damp));
     f0 = mix(f0, max(f0, vec3(0.02)), water.film);
 }
