@@ -710,6 +710,30 @@ static void contact_map_has_the_height_of_the_ground(void **state)
     assert_true(host_contact_place(&contact, &camera, hills_m, 40, 0) && fabs(contact.level_m - 8) < 1e-6);
 }
 
+/* Looks move nothing on a plane that slopes: all show its points at one place, and what is a metre above it beside. */
+static void slanted_looks_follow_a_slope(void **state)
+{
+    const double ground_m[2] = {-0.4, 0.4}, middle_m[3] = {2, 0.1, -15}, slope[2] = {-0.02, 0.021};
+    host_contact contact = {.ready = true};
+    const host_camera camera = {.position_m = {3, 1, 7}};
+    (void)state;
+    host_contact_tilt(&contact, middle_m, slope);
+    assert_true(host_contact_place(&contact, &camera, ground_m, 12, 0));
+    for (uint32_t look = 0; look < HOST_CONTACT_LOOKS; look++)
+        for (int i = 0; i < 8; i++) {
+            const double x = 3 + 7 * (i & 1), z = 7 - 6 * (i >> 1 & 1), up = i >> 2,
+                         y = slope[0] * (x - middle_m[0]) + slope[1] * (z - middle_m[2]) + middle_m[1] + up;
+            float m[16], plain[16];
+            host_contact_look(&contact, HOST_CONTACT_UNDER, look, m);
+            host_contact_look(&contact, HOST_CONTACT_UNDER, 0, plain);
+            double off = 0;
+            for (int row = 0; row < 2; row++)
+                off += fabs((double)(m[row] - plain[row]) * x + (double)(m[4 + row] - plain[4 + row]) * y +
+                            (double)(m[8 + row] - plain[8 + row]) * z + (double)(m[12 + row] - plain[12 + row]));
+            assert_float_equal(off, look ? 0.25 * up * 2 / 20 : 0, 2e-6);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -719,6 +743,7 @@ int main(void)
         cmocka_unit_test(ground_below_things_is_in_their_shade),
         cmocka_unit_test(the_shade_of_a_thing_goes_with_it),
         cmocka_unit_test(contact_map_has_the_height_of_the_ground),
+        cmocka_unit_test(slanted_looks_follow_a_slope),
         cmocka_unit_test(sky_pixel),
         cmocka_unit_test(lamp_light),
         cmocka_unit_test(sub_frames),

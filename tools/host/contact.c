@@ -18,8 +18,10 @@
 #define STEP_M   2.0 /* in steps, so that it is not made in every frame */
 #define EYES_M   1.6 /* of the camera above the ground, about */
 #define SLANT    0.25f
-#define REACH_M  1.8 /* of shade: as far as shaders/contact.comp looks, and what slanted looks move things by */
-#define FLAT_M   1.0 /* ground with no more between its lowest and highest point has one height */
+#define REACH_M  1.8   /* of shade: as far as shaders/contact.comp looks, and what slanted looks move things by */
+#define LEVEL    0.005 /* slope of what is taken for level, at most */
+#define STEEP    0.3   /* slope of what is taken for a plane, at most */
+#define FLAT_M   1.0   /* ground with no more between its lowest and highest point has one height */
 
 /* Bindings beside the maps. */
 enum { WRITE_SHADE = HOST_CONTACT_MAPS, WRITE_TILES, READ_TILES, WRITE_NEAR, READ_NEAR, BINDINGS };
@@ -119,6 +121,20 @@ static bool differ(double a, double b)
     return a < b || a > b;
 }
 
+void host_contact_tilt(host_contact *c, const double middle_m[3], const double slope[2])
+{
+    const host_contact before = *c;
+    const bool slopes = hypot(slope[0], slope[1]) > LEVEL;
+    for (int i = 0; i < 3; i++) {
+        c->tilt_m[i] = middle_m[i];
+        c->ready = c->ready && !differ(c->tilt_m[i], before.tilt_m[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        c->slope[i] = slopes ? fmin(fmax(slope[i], -STEEP), STEEP) : 0;
+        c->ready = c->ready && !differ(c->slope[i], before.slope[i]);
+    }
+}
+
 bool host_contact_place(host_contact *c, const host_camera *camera, const double ground_m[2], double high_m,
                         uint32_t moving_count)
 {
@@ -180,7 +196,9 @@ uint32_t host_contact_looks(host_contact_map map)
 
 /* From below depth rises with the height, from above it falls. Upright sides are seen from aslant only, and many things
  * have no bottom: so undersides are seen along five lines. What that moves beyond a thing has no top there. Under eaves
- * it has one: by so much as the ground is off level_m, what a wall has below the ground would stand before it. */
+ * it has one: by so much as the ground is off the height where looks move nothing, what a wall has below the ground
+ * would stand before it, a quarter as wide. So that height is a plane: along a street that falls, ground is off a level
+ * by more than that of kerbs. */
 void host_contact_look(const host_contact *c, host_contact_map map, uint32_t look, float m[16])
 {
     static const float slants[HOST_CONTACT_LOOKS][2] = {{0, 0}, {SLANT, 0}, {-SLANT, 0}, {0, SLANT}, {0, -SLANT}};
@@ -189,9 +207,14 @@ void host_contact_look(const host_contact *c, host_contact_map map, uint32_t loo
     memset(m, 0, 16 * sizeof *m);
     m[0] = m[9] = scale;
     m[6] = over ? -rise : rise;
+    const bool slopes = differ(c->slope[0], 0) || differ(c->slope[1], 0);
+    const double zero_m = slopes ? c->tilt_m[1] - c->slope[0] * c->tilt_m[0] - c->slope[1] * c->tilt_m[2] : c->level_m;
     for (int axis = 0; axis < 2; axis++) {
-        m[4 + axis] = scale * slants[look][axis];
-        m[12 + axis] = -scale * (float)(c->low_m[2 * axis] + 0.5 * SIDE_M + (double)slants[look][axis] * c->level_m);
+        const double slant = (double)slants[look][axis];
+        m[axis] -= scale * (float)(slant * c->slope[0]);
+        m[4 + axis] = scale * (float)slant;
+        m[8 + axis] -= scale * (float)(slant * c->slope[1]);
+        m[12 + axis] = -scale * (float)(c->low_m[2 * axis] + 0.5 * SIDE_M + slant * zero_m);
     }
     m[14] = over ? 1 + rise * (float)c->low_m[1] : -rise * (float)c->low_m[1];
     m[15] = 1;

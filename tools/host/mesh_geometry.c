@@ -152,6 +152,24 @@ static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_
 
 /* ---- primitives --------------------------------------------------------------------------------------------- */
 
+/* The plane y = a + slope[0] x + slope[1] z of least squares. Level, where the vertices stand in a line. */
+static void find_slope(const host_vertex *vertices, uint32_t count, float slope[2])
+{
+    double mean[3] = {0}, xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            mean[c] += (double)vertices[i].position[c] / count;
+    for (uint32_t i = 0; i < count; i++) {
+        const double x = (double)vertices[i].position[0] - mean[0], y = (double)vertices[i].position[1] - mean[1],
+                     z = (double)vertices[i].position[2] - mean[2];
+        xx += x * x, xz += x * z, zz += z * z, xy += x * y, zy += z * y;
+    }
+    const double det = xx * zz - xz * xz;
+    const bool flat = det > 1e-9 * xx * zz;
+    slope[0] = flat ? (float)((xy * zz - zy * xz) / det) : 0;
+    slope[1] = flat ? (float)((zy * xx - xy * xz) / det) : 0;
+}
+
 static void find_bounds(const host_vertex *vertices, uint32_t count, float low[3], float high[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -193,6 +211,7 @@ static bool add_primitive(host_mesh_build *build, const struct aiNode *node, uin
     repair_normals(build->vertices, build->vertex_count, mesh->mNumVertices, build->indices + build->index_count,
                    index_count);
     find_bounds(build->vertices + build->vertex_count, mesh->mNumVertices, primitive->low, primitive->high);
+    find_slope(build->vertices + build->vertex_count, mesh->mNumVertices, primitive->slope);
     build->vertex_count += mesh->mNumVertices;
     build->index_count += index_count;
     build->primitive_count++;

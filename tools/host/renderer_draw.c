@@ -334,6 +334,29 @@ static void find_ground(const host_renderer *r, const double camera_m[3], double
         heights_m[i] = best[0] <= best[1] ? best[i] : 0;
 }
 
+/* How the ground around the camera slopes: the mean of its parts, by their areas, so that it seldom changes. */
+static void tilt_contact(host_renderer *r, const double camera_m[3], double near_m)
+{
+    double sum[6] = {0};
+    for (uint32_t e = 0; e < r->entry_count; e++)
+        for (uint32_t i = 0; i < r->entries[e].mesh->primitive_count; i++) {
+            const host_primitive *p = &r->entries[e].mesh->primitives[i];
+            double area = p->ground ? 1 : 0;
+            for (int k = 0; k < 3; k += 2) {
+                const double low = (double)p->low[k], high = (double)p->high[k];
+                area *= low < camera_m[k] + near_m && high > camera_m[k] - near_m ? high - low : 0;
+            }
+            for (int k = 0; k < 3; k++)
+                sum[k] += area * 0.5 * ((double)p->low[k] + (double)p->high[k]);
+            for (int k = 0; k < 2; k++)
+                sum[3 + k] += area * (double)p->slope[k];
+            sum[5] += area;
+        }
+    for (int k = 0; k < 5; k++)
+        sum[k] /= sum[5] > 0 ? sum[5] : 1;
+    host_contact_tilt(&r->contact, sum, sum + 3);
+}
+
 /* Around what moves by itself on the map. */
 static host_contact_box moving_on_contact(const host_renderer *r)
 {
@@ -367,6 +390,7 @@ static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_cam
         high[1] = fmaxf(high[1], ceilf(r->entries[e].mesh->high[1])); /* not in the bounds; whole metres, as it bobs */
         moving_count++;
     }
+    tilt_contact(r, camera->position_m, HOST_CONTACT_NEAR_M);
     const bool placed = host_contact_place(&r->contact, camera, ground_m, (double)high[1], moving_count);
     const host_contact_box moving = moving_on_contact(r);
     const bool moved = memcmp(moving.places, r->contact.moved.places, sizeof moving.places) != 0;
