@@ -183,7 +183,7 @@ def slabs(size=512):
 
 
 def joints(size, tile_m, rows, columns, joint_px, seed, shift=0.5, wobble=0.0):
-    """glTF's occlusion of a bond, as the program reads it: black in the middle of joints, white from 12 mm beside them on."""
+    """glTF's occlusion of a bond: black in the middle of joints, white from 12 mm beside them on."""
     pixel_m = tile_m / size
     edges = [edge * pixel_m for _, _, edge in courses(size, rows, columns, joint_px, seed, shift, wobble)]
     return png(size, size, [(255 * max(0.0, min(1.0, (m + 0.005) / 0.017)),) * 3 for m in edges], 16)
@@ -350,7 +350,8 @@ def shop_window(width=256, height=128):
 
 
 def all_images():
-    return {"slabs_joints": joints(512, 2.4, 6, 4, 2.2, 32), "setts_joints": joints(256, 0.96, 8, 8, 3.0, 42, 0.5, 0.09),
+    return {"slabs_joints": joints(512, 2.4, 6, 4, 2.2, 32),
+            "setts_joints": joints(256, 0.96, 8, 8, 3.0, 42, 0.5, 0.09),
             "asphalt": asphalt(), "brick": brick(), "slabs": slabs(), "setts": setts(), "ashlar": ashlar(),
             "plaster": plaster(), "roof_tiles": roof_tiles(), "wood": wood(), "metal": metal(), "stripes": stripes(),
             "foliage": foliage(), "earth": earth(), "interiors": interiors(), "shop_window": shop_window()}

@@ -105,13 +105,14 @@ float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at
 
 // ---- joints between stones
 //
-// Liquid that wets the walls of a pore of radius r, at contact angle theta, is drawn into it by gamma cos(theta) / r and
-// held back by its viscosity mu, and gets to x with x^2 = r gamma cos(theta) t / (2 mu) (Washburn 1921, The dynamics of
-// capillary flow, from memory). In the sand of a joint, r = 0.03 mm and cos(theta) = 0.5: 2 cm in a second and 7 cm in
-// ten. So along a joint the water of a cell is soon everywhere alike, and shows no spots. In concrete or stone pores are
-// of half a micrometre: 3 mm in a second, 9 mm in ten. But finer pores pull harder, and take the water out of the sand,
-// whose grains keep a film. A joint of width w has caught w times `wet` (of the pores' volume on an area); where a tenth
-// of the pores is full the stone is dark, as under a spot. Beside it, on each side, a strip of width x is so:
+// Liquid that wets the walls of a pore of radius r, at contact angle theta, is drawn into it by gamma cos(theta) / r
+// and held back by its viscosity mu, and gets to x with x^2 = r gamma cos(theta) t / (2 mu) (Washburn 1921, The
+// dynamics of capillary flow, from memory). In the sand of a joint, r = 0.03 mm and cos(theta) = 0.5: 2 cm in a second
+// and 7 cm in ten. So along a joint the water of a cell is soon everywhere alike, and shows no spots. In concrete or
+// stone pores are of half a micrometre: 3 mm in a second, 9 mm in ten. But finer pores pull harder, and take the water
+// out of the sand, whose grains keep a film. A joint of width w has caught w times `wet` (of the pores' volume on an
+// area); where a tenth of the pores is full the stone is dark, as under a spot. Beside it, on each side, a strip of
+// width x is so:
 //
 //     0.1 (2 x) = wet (w + 2 x),   x = w wet / (2 (0.1 - wet)),
 //

@@ -251,8 +251,13 @@ static void strips_beside_a_joint_hold_its_water(void **state)
     put_map();
     for (int i = 0; i < 24; i++) {
         const double wet = (double)wets[i / 4], pixel = (double)pixels_m[i % 4];
-        const square line = {.first = {-0.015f, 0}, .apart = (float)apart, .wet = wets[i / 4], .cells = CELLS,
-                             .pixel_cells = pixels_m[i % 4], .joint_m = (float)width, .most_m = (float)most};
+        const square line = {.first = {-0.015f, 0},
+                             .apart = (float)apart,
+                             .wet = wets[i / 4],
+                             .cells = CELLS,
+                             .pixel_cells = pixels_m[i % 4],
+                             .joint_m = (float)width,
+                             .most_m = (float)most};
         const float *found = read_square(&line);
         const double grains = fmin(10 * wet, 1), strip = fmin(wet < 0.1 ? 0.5 * width * wet / (0.1 - wet) : 1, 0.008);
         double sum = 0;

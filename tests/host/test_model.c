@@ -280,8 +280,8 @@ static void mips_keep_coverage(void **state)
 static void joints_are_beside_the_color(void **state)
 {
     (void)state;
-    const uint8_t color[8] = {200, 100, 50, 255, 20, 10, 0, 255}, occlusion[16] = {7, 0, 0, 255, 7, 0, 0, 255,
-                                                                                  255, 0, 0, 255, 255, 0, 0, 255};
+    const uint8_t color[8] = {200, 100, 50, 255, 20, 10, 0, 255},
+                  occlusion[16] = {7, 0, 0, 255, 7, 0, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255};
     host_picture plain, depth, both;
     assert_true(host_picture_from_rgba(color, 2, 1, &plain));
     assert_true(host_picture_from_rgba(occlusion, 4, 1, &depth));

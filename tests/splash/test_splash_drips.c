@@ -295,7 +295,7 @@ static void another_place_begins_without_the_water_of_the_one_before(void **stat
 {
     (void)state;
     virga_drip_gpu alone[SITES];
-    for (uint32_t changed = 0; ; changed++) {
+    for (uint32_t changed = 0;; changed++) {
         begin(true, 4096);
         play(60, 15);
         f.rain_mm_h = 0;

@@ -101,7 +101,8 @@ static int32_t find_picture(host_mesh_build *build, const char *name)
     const int32_t index = add_picture(build, name, &is_new);
     if (index < 0)
         return -1;
-    const bool good = is_new ? load_picture(build, name, &build->pictures[index]) : build->pictures[index].texels != NULL;
+    const bool good =
+        is_new ? load_picture(build, name, &build->pictures[index]) : build->pictures[index].texels != NULL;
     return good ? index : -1;
 }
 

@@ -172,7 +172,7 @@ struct host_accumulate_gpu { /* push constants */
 #define HOST_HAS_BASE_TEXTURE     1
 #define HOST_HAS_EMISSIVE_TEXTURE 2
 #define HOST_IS_GLASS             4
-#define HOST_HAS_JOINTS           8 /* in the base texture's alpha */
+#define HOST_HAS_JOINTS           8  /* in the base texture's alpha */
 #define HOST_GROUND               16 /* times 1 + the material */
 
 #endif
