@@ -188,6 +188,8 @@ virga_result splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_
     }
     draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin_quads));
     draw(splash, cmd, used[3], offsetof(virga_splash_prepared_gpu, puffs));
+    if (film)
+        draw(splash, cmd, used[3], offsetof(virga_splash_prepared_gpu, puff_crowns));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

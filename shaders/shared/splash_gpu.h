@@ -189,6 +189,11 @@ struct virga_sprite_gpu {
 #define VIRGA_SPRITE_PUFF    2
 #define VIRGA_SPRITE_CLOUD   3 /* mist: droplets that one stands for, too many to be seen one by one */
 
+/* Puffs whose crowns are drawn one by one have a quad for each of as many as a puff may have. Their vertices begin at
+ * this one, so that the pass of the others can draw them, too. */
+#define VIRGA_SPLASH_MAX_CROWNS   64
+#define VIRGA_SPLASH_CROWN_VERTEX 0x40000000
+
 /* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_splash_draw_gpu {
     uint index_count;
@@ -203,6 +208,7 @@ struct virga_splash_prepared_gpu {
     virga_splash_draw_gpu lines;      /* droplets of one colour, drawn as lines */
     virga_splash_draw_gpu thin_quads; /* other sprites of one colour: droplets and piles */
     virga_splash_draw_gpu puffs;      /* distant splashes */
+    virga_splash_draw_gpu puff_crowns; /* those whose crowns are drawn one by one, an instance each */
     virga_splash_draw_gpu wide_quads; /* sprites that refract what is behind them; (paper) pyramids */
     virga_splash_draw_gpu crowns;     /* sheets of crowns; (paper) pyramids of crowns */
     uint sprites;
@@ -219,7 +225,7 @@ struct virga_splash_prepared_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
-VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 144);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 164 + 64 * VIRGA_SPLASH_PANES);
 VIRGA_ASSERT_SIZE(virga_splash_pane_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);

@@ -55,13 +55,19 @@ vec2 ring_radii(float half_wide, float sine, float share)
 // largest factors of finger_at and of its reach. The ring: where ring_part's distance is h, the point is f = 1 + h
 // sqrt(c^2 / rx^2 + s^2 / ry^2) times as far out as (c rx, s ry) with c^2 + s^2 = 1. So with rx >= ry its y is at most
 // ry + h, and its x at most rx + h sqrt(c^4 + (c s rx / ry)^2), where c s is at most 1/2.
-bool crown_may_cover(vec2 at, float half_wide, float high, float sine, float share)
+vec3 crown_box(float half_wide, float high, float sine, float share) // half width; how far down, and up
 {
     const vec2 radii = ring_radii(half_wide, sine, share);
     const float flatter = radii.x / radii.y, out_px = OUT_SHARE * (1.0 - share) * half_wide + FINGER_PX;
     const float wide = radii.x + max(RING_PX * sqrt(1.0 + 0.25 * flatter * flatter), out_px);
     const float deep = max(sine * half_wide + 0.5, radii.y + max(RING_PX, out_px));
-    return abs(at.x) < max(wide, half_wide) && at.y > -deep && at.y < deep + UP_SHARE * high;
+    return vec3(max(wide, half_wide), deep, deep + UP_SHARE * high);
+}
+
+bool crown_may_cover(vec2 at, float half_wide, float high, float sine, float share)
+{
+    const vec3 box = crown_box(half_wide, high, sine, share);
+    return abs(at.x) < box.x && at.y > -box.y && at.y < box.z;
 }
 
 // `at`: from the middle of the foot, y upwards; `share`: the ring's part of the half width. All in pixels.

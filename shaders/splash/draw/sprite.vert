@@ -2,6 +2,7 @@
 // One invocation per vertex. Reads: sprites. Writes: position, colour and shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
 #include "gpu/vectors.glsl"

@@ -8,12 +8,28 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-// In the film's style the second kind shows the background through it; in the paper's style it is a pyramid.
+// Whether the crowns of a puff are drawn one by one, in the film's style: where most of its pixels are between them. Such
+// a puff has all the vertices that a puff may have, which cost software Vulkan as much as a thousand pixels. Small
+// crowns close together have a veil between them, see puff_crowns.glsl.
+#define ONE_BY_ONE_PX2 2048.0
+#define CROWN_PX2      32.0 // of a cell: without a veil
+
+bool has_own_crowns(Sprite sprite, Projected p)
+{
+    const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const float high_px = length((p.head.xy / p.head.w - p.tail.xy / p.tail.w) * half_viewport);
+    const float area = high_px * (p.body_px + p.spread_px);
+    return is_film() && sprite.kind == VIRGA_SPRITE_PUFF && p.columns > 1.5 && area >= ONE_BY_ONE_PX2 &&
+           area >= CROWN_PX2 * p.columns * p.rows;
+}
+
+// In the film's style the second kind shows the background through it, or is a puff whose crowns are drawn one by one;
+// in the paper's style it is a pyramid.
 uint kind_of(Sprite sprite, Projected p)
 {
     const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
     const bool clear = sprite.kind == VIRGA_SPRITE_DROPLET || pile;
-    const bool second = is_film() ? p.width_px >= WIDE_PX && clear : pile;
+    const bool second = is_film() ? (p.width_px >= WIDE_PX && clear) || has_own_crowns(sprite, p) : pile;
     return p.coverage <= 0.0 ? NOT_SELECTED : second ? SECOND_KIND : FIRST_KIND;
 }
 

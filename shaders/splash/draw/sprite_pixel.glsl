@@ -75,6 +75,7 @@ float pile_cover()
 
 #include "puff_spot.glsl"
 #include "puff_ring.glsl"
+#include "puff_crowns.glsl"
 
 // As a spot, or by its ring and droplets where they are large enough to be seen.
 float crown_cover(vec2 at, float half_wide, float high, vec4 chance)
@@ -88,49 +89,23 @@ float crown_cover(vec2 at, float half_wide, float high, vec4 chance)
 
 #define MAX_OPACITY 0.6 // max opacity of a splash, whose wall is thin
 
-// Several crowns on an ellipse, each at its own position. They differ in size and age; the one at the opposite position
-// covers less by what one covers more than the mean. Together they cover half of their rectangle. Small ones close
-// together are not told apart by the eye: half of their coverage is drawn as a uniform veil.
+// Of the crown in whose cell the pixel is, and of the veil, see puff_crowns.glsl.
 float puff_cover()
 {
-    const float columns = floor(axis_chance.w), column_px = 2.0 * shape.x / columns, rows = floor(axis_chance.x);
-    const float column = clamp(floor((sprite_position.x + shape.x) / column_px), 0.0, columns - 1.0);
-    const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, aside = from_middle * from_middle;
-    // Each column has its own offset, or they would form rows.
-    const float room = rows > 1.5 ? 0.85 - 0.3 * aside : 1.0, row_px = shape.z * room / rows;
-    const float lowest = shape.z * (1.0 - room) * fract(0.618 * column + axis_chance.w);
-    const float row = clamp(floor((sprite_position.y - lowest) / row_px), 0.0, rows - 1.0);
-
-    const float number = row * columns + column, opposite = columns * rows - 1.0 - number;
-    // From integers, so that all variants of the shader get the same: the sine of a large angle depends on how
-    // operations are fused.
-    const uint pair = virga_hash1(uint(1024.0 * fract(axis_chance.w)) << 6 | uint(min(number, opposite)));
-    const float more = sign(opposite - number), several = columns > 1.5 ? 1.0 : 0.0;
-    const float covers = 1.0 + 0.9 * more * unpackUnorm4x8(pair).x, size = 0.35 + 0.65 * covers;
-    const float close = clamp(1.6 - 0.1 * column_px * row_px, 0.0, 1.0) * several;
-    const float veil = close * clamp(1.25 - 0.5 * shape.w, 0.0, 0.5);
-    const vec4 chance = unpackUnorm4x8(more < 0.0 ? pair * 0x9e3779b1u : pair);
-    const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(axis_chance.x) - 1.0;
-    const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = axis_chance.z * shape.z;
-    const float half_wide = min(one_px * (1.0 + veil) * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
-    const float depth = axis_chance.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
-    const float high = columns > 1.5 ? min(tall, max(row_px - 2.0 * depth - 1.5, 0.3 * row_px)) : one_high;
-    const float up = max(row_px - high - 2.0 * depth, 0.0);
-    const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : 1.0 - aside)) + depth;
-    const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
-    const vec2 at = vec2(sprite_position.x + shape.x - (column + 0.5) * column_px - beside,
-                         sprite_position.y - lowest - row * row_px - foot);
+    const PuffCrown crown = crown_of_pixel(shape, axis_chance, sprite_position.xy);
+    const vec2 at = sprite_position.xy - crown.middle;
     // A loop, not a branch: software Vulkan skips a loop where no lane takes it.
     float one = 0.0;
-    bool may_cover = crown_may_cover(at, half_wide, high, axis_chance.y, shape.y);
+    bool may_cover = crown_may_cover(at, crown.half_wide, crown.high, axis_chance.y, shape.y);
     if (FOR_GPU && may_cover)
-        one = crown_cover(at, half_wide, high, chance);
+        one = crown_cover(at, crown.half_wide, crown.high, crown.chance);
     [[dont_unroll]] for (; !FOR_GPU && may_cover; may_cover = false)
-        one = crown_cover(at, half_wide, high, chance);
+        one = crown_cover(at, crown.half_wide, crown.high, crown.chance);
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
     const vec2 on_ellipse = vec2(sprite_position.x * deep, 2.0 * sprite_position.y * shape.x) * each - vec2(0.0, 1.0);
-    const float uniform_cover = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
-    return one_px * (one_high + 1.0) * mix(covers * one, uniform_cover, veil);
+    const float uniform_cover = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 *
+                                puff_columns(axis_chance) * puff_rows(axis_chance) * each;
+    return puff_one_px(shape) * (axis_chance.z * shape.z + 1.0) * mix(crown.covers * one, uniform_cover, crown.veil);
 }
 
 float sprite_cover()

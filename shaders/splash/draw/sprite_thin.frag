@@ -28,7 +28,7 @@ void main()
     // A cloud's droplets scatter light from everywhere: it shows no picture of what is behind it.
     const bool cloud = !PUFFS && rim_kind.w > 2.5;
     vec3 light = vec3(0.0);
-    if (!PUFFS || FOR_GPU)
+    if (!PUFFS || (FOR_GPU && alpha > 0.0))
         light = cloud ? open : small_water(open);
     // Where none of several puffs is there is nothing to light: a loop, see puff_cover.
     [[dont_unroll]] for (bool shows = PUFFS && !FOR_GPU && alpha > 0.0; shows; shows = false)

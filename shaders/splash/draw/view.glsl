@@ -15,7 +15,7 @@ layout(scalar, set = 0, binding = 1) uniform View
 #define MAX_COVERAGE 0.3 // of a sprite that stands for many
 #define WIDE_PX 3.0      // from this width on a sprite shows what is behind it
 #define MAX_COLUMNS 16   // max puffs beside each other in one sprite,
-#define MAX_ROWS 4       // and behind each other
+#define MAX_ROWS 4       // and behind each other; VIRGA_SPLASH_MAX_CROWNS is the product
 #define SPACING 1.4      // distance between puffs, relative to their water: clusters merge
 #define MIN_SPACING 3.0  // min distance between puffs, of the min width that is drawn
 #define MIN_FLATNESS 0.3 // min height over width of the ellipse on which they are scattered

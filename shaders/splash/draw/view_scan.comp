@@ -25,16 +25,28 @@ uint first_of_set(uint groups_before, virga_list_gpu head)
     return is_past ? head.count : min(selection[groups_before * GROUP_WORDS].z, head.count);
 }
 
-// Six indices per sprite, two per line, twelve per pyramid. The second kind comes first in the list, then lines.
+// The same, of the second kind.
+uint second_of_set(uint groups_before, virga_list_gpu head)
+{
+    const bool is_past = groups_before >= state.sprite_groups[0];
+    return is_past ? head.second_kind : min(selection[groups_before * GROUP_WORDS].w, head.second_kind);
+}
+
+// Six indices per sprite, two per line, twelve per pyramid. The second kind comes first in the list, then lines. Of the
+// second kind, splashes are puffs whose crowns are drawn one by one: an instance each.
 void draw_sprites(virga_list_gpu head)
 {
     const uint each = is_film() ? 6u : 12u, second = head.second_kind;
     const uint quads = first_of_set(state.view_groups[0], head), puffs = first_of_set(3u * state.view_groups[0], head);
     const uint first_line = 18u * look.max_sprites + VIRGA_CROWN_INDICES;
-    prepared.wide_quads = virga_splash_draw_gpu(each * second, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
+    const uint wide = second_of_set(3u * state.view_groups[0], head);
+    prepared.wide_quads = virga_splash_draw_gpu(each * wide, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
     prepared.lines = virga_splash_draw_gpu(2u * (quads - second), 1u, first_line + 2u * second, 0, 0u);
     prepared.thin_quads = virga_splash_draw_gpu(6u * (puffs - quads), 1u, 6u * quads, 0, 0u);
     prepared.puffs = virga_splash_draw_gpu(6u * (head.count - puffs), 1u, 6u * puffs, 0, 0u);
+    prepared.puff_crowns = virga_splash_draw_gpu(6u * VIRGA_SPLASH_MAX_CROWNS, second - wide, 0u,
+                                                 VIRGA_SPLASH_CROWN_VERTEX +
+                                                     4 * VIRGA_SPLASH_MAX_CROWNS * int(wide), 0u);
     prepared.sprites = head.count;
 }
 
