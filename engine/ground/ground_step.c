@@ -461,6 +461,18 @@ static void contact(virga_ground *ground, VkCommandBuffer cmd)
     ground_contacts_record(ground, cmd);
 }
 
+/* A pass over what fell on cells: a GPU looks at all of them, see shaders/ground/cell_pairs.glsl. */
+static void settle(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
+{
+    if (ground->base.context->for_software) {
+        over_water(ground, cmd, pipeline);
+        return;
+    }
+    bind(ground, cmd);
+    dispatch_blocks(ground, cmd, pipeline, offsetof(virga_ground_blocks_gpu, flow_groups));
+    virga_compute_barrier(ground->base.context, cmd);
+}
+
 static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
 {
     stand_in_rain(ground);
@@ -471,8 +483,8 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     over_water(ground, cmd, ground->land);
     bind(ground, cmd);
     virga_dispatch(ground->base.context, cmd, ground->ring, 1);
-    over_water(ground, cmd, ground->share);
-    over_water(ground, cmd, ground->soak);
+    settle(ground, cmd, ground->share);
+    settle(ground, cmd, ground->soak);
     virga_pass_end(ground->base.context, cmd, scope);
     contact(ground, cmd);
     bind(ground, cmd);

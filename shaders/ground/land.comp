@@ -1,6 +1,9 @@
 // land.comp - the drops of a tick land: water by cell, what each drop met there, and the dark spots that they leave.
-// One invocation per impact. Reads: impacts, cells as before this tick. Writes: arrivals, landings, spots, slope
-// variance, spawns.
+// A workgroup per VIRGA_GROUND_IMPACTS_EACH impacts. Reads: impacts, cells as before this tick. Writes: arrivals,
+// landings, spots, slope variance, spawns.
+//
+// Few impacts have many pieces. On software Vulkan an invocation does all pieces of its impact, one after another. On a
+// GPU that would take as long as the impact with the most; so there several lanes share the pieces of each impact.
 //
 // Everything is read as before this tick, and sums are integers, so the order of drops does not matter.
 #version 460
@@ -11,8 +14,9 @@
 #include "rings.glsl"
 #include "spawns.glsl"
 #include "shared/ground_map.glsl"
+#include "gpu/variants.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = VIRGA_GROUND_IMPACTS_EACH, local_size_x_id = 5) in; // constant 5: see gpu/pipeline_build.c
 layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
@@ -120,43 +124,76 @@ uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, ui
     return water_nl;
 }
 
+// Water of an invocation's pieces, in 64 bits.
+struct Water {
+    virga_ground_count_gpu here, flown, elsewhere;
+    virga_ground_count_gpu returned, spray, spray_off; // of returns
+};
+
+void add(inout virga_ground_count_gpu sum, uint nl)
+{
+    sum.low += nl;
+    sum.high += sum.low < nl ? 1u : 0u;
+}
+
+void count_sum(uint index, virga_ground_count_gpu sum)
+{
+    if (sum.low > 0u)
+        count_water(index, sum.low);
+    if (sum.high > 0u)
+        atomicAdd(counts[index].high, sum.high);
+}
+
+// Piece i of n. `spawn_index`: of the impact's first spawn. `splashing`: a bit for each of its pieces.
+void land_piece(uint index, virga_impact_gpu impact, Piece first, uint i, uint n, uint spawn_index, uint splashing,
+                inout Water sums)
+{
+    const Piece piece = get_piece(impact, first, i, n);
+    const float drops = impact.weight / float(n);
+    if (i == 0u)
+        record_landing(landing_index(index), piece, impact);
+    uint water = piece.water_nl;
+    if (spawn_index != NO_SPAWN && (splashing >> i & 1u) != 0u) {
+        const Spawning plan = plan_spawn(impact, piece, i);
+        write_spawn(spawn_index + bitCount(bitfieldExtract(splashing, 0, int(i))), impact, piece, i, plan, drops);
+        water -= plan.water_nl;
+        add(sums.flown, plan.water_nl);
+    }
+    const uint here = arrive(impact, piece, water, drops, i);
+    add(sums.here, here);
+    add(sums.elsewhere, water - here);
+    const bool spray = (impact.material & VIRGA_IMPACT_SPRAY) != 0u;
+    add(sums.returned, spray ? 0u : piece.water_nl);
+    add(sums.spray, spray ? piece.water_nl - (water - here) : 0u);
+    add(sums.spray_off, spray ? water - here : 0u);
+}
+
+void count_water_of(Water sums)
+{
+    count_sum(VIRGA_GROUND_LANDED, sums.here);
+    count_sum(VIRGA_GROUND_OFF_GROUND, sums.elsewhere);
+    count_sum(VIRGA_GROUND_FLOWN, sums.flown);
+    if (head.is_return == 0u)
+        return;
+    count_sum(VIRGA_GROUND_RETURNED, sums.returned);
+    count_sum(VIRGA_GROUND_SPRAY, sums.spray);
+    count_sum(VIRGA_GROUND_SPRAY_OFF, sums.spray_off);
+}
+
 void main()
 {
-    const uint index = gl_GlobalInvocationID.x;
+    const uint lanes = FOR_GPU ? gl_WorkGroupSize.x / uint(VIRGA_GROUND_IMPACTS_EACH) : 1u; // of each impact
+    const uint index = gl_GlobalInvocationID.x / lanes;
     if (!is_of_tick(index))
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact), landing = landing_index(index);
-    const float drops = impact.weight / float(n);
-    uint next = tick.max_spawns == 0u ? NO_SPAWN : landings[landing].first_spawn;
+    const uint spawn_index = tick.max_spawns == 0u ? NO_SPAWN : landings[landing].first_spawn;
     const uint splashing = landings[landing].splashing;
-    uint here = 0u, flown = 0u;
     const Piece first = first_piece(impact);
-    for (uint i = 0u; i < n; i++) {
-        const Piece piece = get_piece(impact, first, i, n);
-        if (i == 0u)
-            record_landing(landing, piece, impact);
-        uint water = piece.water_nl;
-        if (next != NO_SPAWN && (splashing >> i & 1u) != 0u) {
-            const Spawning plan = plan_spawn(impact, piece, i);
-            write_spawn(next++, impact, piece, i, plan, drops);
-            water -= plan.water_nl;
-            flown += plan.water_nl;
-        }
-        here += arrive(impact, piece, water, drops, i);
-    }
-    const uint elsewhere = impact.water_nl - flown - here;
-    if (here > 0u)
-        count_water(VIRGA_GROUND_LANDED, here);
-    if (elsewhere > 0u)
-        count_water(VIRGA_GROUND_OFF_GROUND, elsewhere);
-    if (flown > 0u)
-        count_water(VIRGA_GROUND_FLOWN, flown);
-    const bool spray = (impact.material & VIRGA_IMPACT_SPRAY) != 0u;
-    if (head.is_return != 0u && !spray)
-        count_water(VIRGA_GROUND_RETURNED, impact.water_nl);
-    if (head.is_return != 0u && spray) {
-        count_water(VIRGA_GROUND_SPRAY, here + flown);
-        count_water(VIRGA_GROUND_SPRAY_OFF, elsewhere);
-    }
+    const virga_ground_count_gpu none = virga_ground_count_gpu(0u, 0u);
+    Water sums = Water(none, none, none, none, none, none);
+    for (uint i = gl_GlobalInvocationID.x % lanes; i < n; i += lanes)
+        land_piece(index, impact, first, i, n, spawn_index, splashing, sums);
+    count_water_of(sums);
 }

@@ -18,14 +18,16 @@
 #include "flow_average.glsl"
 #include "speed.glsl"
 
-layout(local_size_x = VIRGA_GROUND_GROUP) in;
+// More lanes on a GPU, where the pass takes as long as one of them does; sums of integers do not depend on it.
+layout(local_size_x = VIRGA_GROUND_GROUP, local_size_x_id = 5) in; // constant 5: see gpu/pipeline_build.c
+#define LANES gl_WorkGroupSize.x
 layout(scalar, set = 0, binding = 10) readonly buffer Landings { virga_landing_gpu landings[]; };
 
 #define FIRST_RING_HASH 96u // first hash number for whether a piece starts a ring
 #define MAX_NEW_RINGS 2048  // max rings in a tick: ten times the quota of a tick of 1 / 60 s
 
-shared uint sums[VIRGA_GROUND_GROUP];
-shared uvec3 parts[VIRGA_GROUND_GROUP];
+shared uint sums[LANES];
+shared uvec3 parts[LANES];
 shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_MAX_PIECES + piece; in order
 
 float drops_of_piece(uint index) { return impacts[index].weight / float(piece_count(impacts[index])); }
@@ -44,14 +46,17 @@ uint weight_of(uint index)
     return uint(clamp(units * units * drops_of_piece(index), 1.0, 16129.0));
 }
 
+// All that it reads is read at once, as the pass waits for memory each time that it reads. The impacts are drops.
 bool on_water(uint index)
 {
-    if (!is_of_tick(index))
+    if (index >= head_count())
         return false;
+    const uint fallen = impacts[index].tick, cell = landings[index].cell;
+    const float depth_m = landings[index].depth_m;
     const vec2 at_m =
         cells_in_window_of(impacts[index]) * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]);
-    return landings[index].cell != NO_CELL && landings[index].depth_m >= MIN_WATER_M && min(at_m.x, at_m.y) > 0.0 &&
-           max(at_m.x, at_m.y) < tick.ripple_side_m;
+    const bool on_map = min(at_m.x, at_m.y) > 0.0 && max(at_m.x, at_m.y) < tick.ripple_side_m;
+    return fallen == tick.tick && cell != NO_CELL && depth_m >= MIN_WATER_M && on_map;
 }
 
 struct RingCounts {
@@ -64,14 +69,14 @@ RingCounts count_below(float bar)
 {
     const uint lane = gl_LocalInvocationIndex;
     uvec3 own = uvec3(0u);
-    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP)
+    for (uint first = 0u; first < head_count(); first += LANES)
         if (on_water(first + lane)) {
             const uint measure = weight_of(first + lane), pieces = piece_count(impacts[first + lane]);
             if (float(measure) < bar)
                 own += uvec3(pieces, (pieces * measure) & 1023u, (pieces * measure) >> 10);
         }
     parts[lane] = own;
-    for (uint reach = VIRGA_GROUND_GROUP / 2u; reach > 0u; reach /= 2u) {
+    for (uint reach = LANES / 2u; reach > 0u; reach /= 2u) {
         barrier();
         if (lane < reach)
             parts[lane] += parts[lane + reach];
@@ -116,11 +121,11 @@ uint list_new_rings(float bar)
 {
     const uint lane = gl_LocalInvocationIndex;
     uint total = 0u;
-    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP) {
+    for (uint first = 0u; first < head_count(); first += LANES) {
         const uint index = first + lane;
         uint chosen = on_water(index) ? choose_pieces(index, bar) : 0u;
         sums[lane] = bitCount(chosen);
-        for (uint reach = 1u; reach < VIRGA_GROUND_GROUP; reach *= 2u) {
+        for (uint reach = 1u; reach < LANES; reach *= 2u) {
             barrier();
             const uint lower = lane >= reach ? sums[lane - reach] : 0u;
             barrier();
@@ -130,7 +135,7 @@ uint list_new_rings(float bar)
         for (uint at = total + sums[lane] - bitCount(chosen); chosen != 0u; chosen &= chosen - 1u, at++)
             if (at < MAX_NEW_RINGS)
                 new_rings[at] = index * VIRGA_GROUND_MAX_PIECES + uint(findLSB(chosen));
-        total += sums[VIRGA_GROUND_GROUP - 1];
+        total += sums[LANES - 1];
         barrier();
     }
     return min(total, MAX_NEW_RINGS);
@@ -163,7 +168,7 @@ void main()
     const uint lane = gl_LocalInvocationIndex;
     const float bar = find_bar();
     const uint count = list_new_rings(bar), total = rings_head.total;
-    for (uint i = lane; i < count; i += VIRGA_GROUND_GROUP) {
+    for (uint i = lane; i < count; i += LANES) {
         const uint index = new_rings[i] / VIRGA_GROUND_MAX_PIECES;
         start_ring(total + i, index, new_rings[i] % VIRGA_GROUND_MAX_PIECES, chance_of(index, bar));
     }

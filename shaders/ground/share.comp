@@ -1,5 +1,6 @@
 // share.comp - what fell on a cell in this tick fills its pores, and the rest is shared with the four neighbours.
-// One invocation per impact. Reads: floors, cells as before this tick. Writes: arrivals.
+// On software Vulkan one invocation per impact, on a GPU one per four cells of the blocks that have ground: see
+// cell_pairs.glsl. Reads: floors, cells as before this tick. Writes: arrivals.
 // Paper: Mizukami et al., section 4.6.1 and figure 7, extended from a line to the plane.
 //
 // All drops of a tick on a cell count as one. W is left for a saturated cell 0 with n neighbours that are ground (a
@@ -13,9 +14,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "pieces.glsl"
-
-layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
+#include "cell_pairs.glsl"
 
 const ivec2 around[5] = ivec2[5](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
@@ -76,11 +76,39 @@ void share(ivec2 cell, uint own, int water)
     give(own, water - given); // and the remainder of the division
 }
 
-void main()
+// `landed`: what fell on the cell.
+void share_landed(ivec2 cell, uint cell_index, uint landed)
 {
-    const uint index = gl_GlobalInvocationID.x;
-    if (!is_of_tick(index))
+    const uint room = tick.soils[floor_of(cell_index).material].capacity_nl;
+    const uint absorbed = min(landed, room - min(cell_of(cell_index).held_nl, room));
+    const uint shared_nl = min(landed - absorbed, uint(MAX_STEP_NL));
+    give(cell_index, int(landed - shared_nl));
+    share(cell, cell_index, int(shared_nl));
+}
+
+void share_cell(uint cell_index, uint landed)
+{
+    if (landed == 0u)
         return;
+    arrivals[cell_index].landed_nl = 0u;
+    share_landed(cell_at_index(cell_index), cell_index, landed);
+}
+
+void share_pairs()
+{
+    const uint count = listed_blocks();
+    for (uint pair = gl_LocalInvocationIndex; pair < PAIRS_OF_GROUP; pair += gl_WorkGroupSize.x) {
+        const uint first = first_of_pair(pair, count);
+        if (first == NO_CELL)
+            return;
+        const virga_arrivals_gpu low = arrivals[first], high = arrivals[first + 1u];
+        share_cell(first, low.landed_nl);
+        share_cell(first + 1u, high.landed_nl);
+    }
+}
+
+void share_impact(uint index)
+{
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
     const Piece first = first_piece(impact);
@@ -90,12 +118,15 @@ void main()
             continue;
         // One invocation of all drops on a cell gets their sum; it does not matter which.
         const uint landed = atomicExchange(arrivals[piece.cell_index].landed_nl, 0u);
-        if (landed == 0u)
-            continue;
-        const uint room = tick.soils[floor_of(piece.cell_index).material].capacity_nl;
-        const uint absorbed = min(landed, room - min(cell_of(piece.cell_index).held_nl, room));
-        const uint shared_nl = min(landed - absorbed, uint(MAX_STEP_NL));
-        give(piece.cell_index, int(landed - shared_nl));
-        share(piece.cell, piece.cell_index, int(shared_nl));
+        if (landed != 0u)
+            share_landed(piece.cell, piece.cell_index, landed);
     }
+}
+
+void main()
+{
+    if (FOR_GPU)
+        share_pairs();
+    else if (is_of_tick(gl_GlobalInvocationID.x))
+        share_impact(gl_GlobalInvocationID.x);
 }

@@ -1,13 +1,13 @@
 // soak.comp - the water that came to a cell fills its pores first; the rest stays on it.
-// One invocation per impact, for the cells that it reached. Reads: arrivals, floors. Writes: cells, arrivals (cleared).
+// On software Vulkan one invocation per impact, for the cells that it reached; on a GPU one per four cells of the blocks
+// that have ground: see cell_pairs.glsl. Reads: arrivals, floors. Writes: cells, arrivals (cleared).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "pieces.glsl"
 #include "soak.glsl"
-
-layout(local_size_x = 64) in;
+#include "cell_pairs.glsl"
 
 const ivec2 around[5] = ivec2[5](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
@@ -22,11 +22,8 @@ void soak_around(Piece piece, int spread)
         }
 }
 
-void main()
+void soak_impact(uint index)
 {
-    const uint index = gl_GlobalInvocationID.x;
-    if (!is_of_tick(index))
-        return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
     const Piece first = first_piece(impact);
@@ -41,4 +38,27 @@ void main()
         }
         soak_around(piece, spread_of(impact.weight / float(n)));
     }
+}
+
+void soak_pairs()
+{
+    const uint count = listed_blocks();
+    for (uint pair = gl_LocalInvocationIndex; pair < PAIRS_OF_GROUP; pair += gl_WorkGroupSize.x) {
+        const uint first = first_of_pair(pair, count);
+        if (first == NO_CELL)
+            return;
+        const virga_arrivals_gpu low = arrivals[first], high = arrivals[first + 1u];
+        if (low.given_nl != 0u)
+            soak(first);
+        if (high.given_nl != 0u)
+            soak(first + 1u);
+    }
+}
+
+void main()
+{
+    if (FOR_GPU)
+        soak_pairs();
+    else if (is_of_tick(gl_GlobalInvocationID.x))
+        soak_impact(gl_GlobalInvocationID.x);
 }

@@ -27,13 +27,26 @@ float next_near(float near_m, float found)
     return clamp(wanted, MIN_NEAR_M, MAX_NEAR_M);
 }
 
+// Pieces of an impact that splash; NO_SPAWN if it is not of this tick. All is read at once, as the pass takes as long as
+// the reads of an invocation that wait for each other.
+uint splashes_of(uint index)
+{
+    const uint fallen = impacts[index].tick, material = impacts[index].material;
+    const uint splashing = landings[landing_index(index)].splashing;
+    const bool is_return = head.is_return != 0u, of_tick = fallen == tick.tick;
+    const bool no_pane = VIRGA_IMPACT_PANE(material) == 0u;
+    return (is_return && no_pane) || (!is_return && of_tick) ? uint(bitCount(splashing)) : NO_SPAWN;
+}
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, run = (head_count() + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, head_count()), end = min(begin + run, head_count());
     uint sum = 0u;
-    for (uint i = begin; i < end; i++)
-        sum += is_of_tick(i) ? uint(bitCount(landings[landing_index(i)].splashing)) : 0u;
+    for (uint i = begin; i < end; i++) {
+        const uint count = splashes_of(i);
+        sum += count != NO_SPAWN ? count : 0u;
+    }
     if (lane == 0u)
         filled = tick.max_spawns;
     uvec2 all;
@@ -42,9 +55,9 @@ void main()
     const uint before = first ? 0u : spawns_head.count;
     uint spawn_index = before + before_lane;
     for (uint i = begin; i < end; i++) {
-        if (!is_of_tick(i))
+        const uint count = splashes_of(i);
+        if (count == NO_SPAWN)
             continue;
-        const uint count = uint(bitCount(landings[landing_index(i)].splashing));
         const bool fits = spawn_index + count <= tick.max_spawns;
         if (!fits)
             atomicMin(filled, spawn_index); // impacts from the first that does not fit on get none
