@@ -20,6 +20,7 @@ typedef struct id_facts {
     uint32_t block;        /* labels: 1 + index */
     bool own;              /* differs between the lanes of a wave */
     bool constant;
+    bool used;                    /* atomics: an instruction takes the result */
     bool loaded;                  /* pointers: a load of what is the same for all lanes was counted */
     bool exact;                   /* a product or sum that may not be fused with another */
     const block_cost *product_of; /* a product that can be fused: the block that it is in */
@@ -303,15 +304,18 @@ static void cost_of_texels(reader *r, const uint32_t *at, uint32_t op)
     touch(b, image->resource, bytes, writes);
 }
 
+/* An atomic whose result nobody takes returns nothing, and the wave goes on: AMD's "RDNA 2 Instruction Set Architecture"
+ * (2020), GLC bit of global and buffer atomics. */
 static void cost_of_atomic(reader *r, const uint32_t *at)
 {
-    const id_facts *p = &r->ids[at[(at[0] & 0xffff) == 228 ? 1 : 3]]; /* OpAtomicStore has no result */
+    const bool is_store = (at[0] & 0xffff) == OP_ATOMIC_STORE; /* has no result */
+    const id_facts *p = &r->ids[at[is_store ? 1 : 3]];
     if (p->storage == CLASS_WORKGROUP) {
         r->block->shared += 1;
         return;
     }
     r->block->atomic += 1;
-    r->block->waits = true;
+    r->block->waits = r->block->waits || (!is_store && r->ids[at[2]].used);
     touch(r->block, p->resource, 4, true);
 }
 
@@ -356,7 +360,7 @@ static void read_result(reader *r, const uint32_t *at, uint32_t length, uint32_t
 /* True for instructions in functions with a type and a result. */
 static bool has_result(uint32_t op)
 {
-    return !(op == OP_STORE || op == 63 || op == 64 || op == OP_IMAGE_WRITE || op == 228 || op == OP_LABEL || op == 8 ||
+    return !(op == OP_STORE || op == 63 || op == 64 || op == OP_IMAGE_WRITE || op == OP_ATOMIC_STORE || op == OP_LABEL || op == 8 ||
              op == 317 || op == 0 || op == OP_LOOP_MERGE || op == OP_SELECTION_MERGE || op == OP_BRANCH ||
              op == OP_BRANCH_CONDITIONAL || op == OP_SWITCH || op == 56 || (op >= OP_KILL && op <= OP_UNREACHABLE) ||
              op == OP_CONTROL_BARRIER || op == 225);
@@ -463,6 +467,17 @@ static void read_global(reader *r, const uint32_t *at, uint32_t length)
     }
 }
 
+/* Which ids instructions take. A number that is no id may be taken for one: then an atomic waits that need not. */
+static void find_used(reader *r, const uint32_t *code, size_t word_count, size_t first)
+{
+    for (size_t i = first; i < word_count; i += code[i] >> 16) {
+        const uint32_t op = code[i] & 0xffff, length = code[i] >> 16;
+        for (uint32_t k = 1; k < length; k++)
+            if (code[i + k] < r->bound && !(k == 2 && has_result(op)))
+                r->ids[code[i + k]].used = true;
+    }
+}
+
 /* One pass over the functions. With `counting`, costs are added; before, only what differs between lanes is found. */
 static void read_functions(reader *r, const uint32_t *code, size_t word_count, size_t first, bool counting)
 {
@@ -503,6 +518,7 @@ bool block_costs_read(const uint32_t *code, size_t word_count, block_costs *cost
     /* Loops carry values back: three passes are enough for what they carry here, and more would change nothing else. */
     for (int pass = 0; pass < 3; pass++)
         read_functions(&r, code, word_count, first, false);
+    find_used(&r, code, word_count, first);
     read_functions(&r, code, word_count, first, true);
     find_equals(&r, code, word_count, first);
     free(r.ids);

@@ -39,6 +39,7 @@ static struct {
     uint32_t *kept;      /* of the newest frame of each pass */
     uint32_t number_count;
     handle_map modules, layouts, resources, sets, pipelines; /* pipelines: index of the pass */
+    handle_map targets;                                      /* of render passes: target_sizes */
     counted_pass passes[MAX_PASSES];
     uint32_t pass_count;
     counted_pass *bound[2]; /* graphics, compute */
@@ -293,14 +294,49 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
     return result;
 }
 
-/* Attachments that are blended are read and written. Their formats are those of four halves, in nearly all targets. */
+/* Bytes of a texel of each color attachment of a render pass. */
+typedef struct target_sizes {
+    uint32_t count;
+    double bytes[8];
+} target_sizes;
+
+static VKAPI_ATTR VkResult VKAPI_CALL create_render_pass(VkDevice device, const VkRenderPassCreateInfo *info,
+                                                         const VkAllocationCallbacks *with, VkRenderPass *made)
+{
+    const VkResult result = DRIVER(CreateRenderPass)(device, info, with, made);
+    const VkSubpassDescription *first = info->pSubpasses;
+    target_sizes sizes = {0};
+    for (uint32_t i = 0; !result && i < first->colorAttachmentCount && i < 8; i++) {
+        const uint32_t of = first->pColorAttachments[i].attachment;
+        sizes.bytes[sizes.count++] = of < info->attachmentCount ? texel_bytes(info->pAttachments[of].format) : 0;
+    }
+    if (!result)
+        keep(&counting.targets, (uint64_t)*made, &sizes, sizeof sizes);
+    return result;
+}
+
+#define USUAL_TARGET_BYTES 8 /* of four halves */
+
+static double bytes_of_attachment(const VkGraphicsPipelineCreateInfo *info, uint32_t attachment)
+{
+    const target_sizes *sizes = handle_map_find(&counting.targets, (uint64_t)info->renderPass);
+    const VkPipelineRenderingCreateInfo *rendering = info->pNext; /* without a render pass */
+    if (sizes && attachment < sizes->count)
+        return sizes->bytes[attachment];
+    if (!info->renderPass && rendering && attachment < rendering->colorAttachmentCount &&
+        rendering->sType == VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO)
+        return texel_bytes(rendering->pColorAttachmentFormats[attachment]);
+    return USUAL_TARGET_BYTES;
+}
+
+/* Attachments that are blended are read and written. */
 static float bytes_of_target(const VkGraphicsPipelineCreateInfo *info)
 {
     const VkPipelineColorBlendStateCreateInfo *blend = info->pColorBlendState;
     float bytes = info->pDepthStencilState && info->pDepthStencilState->depthTestEnable ? 4 : 0;
     for (uint32_t i = 0; blend && i < blend->attachmentCount; i++)
         if (blend->pAttachments[i].colorWriteMask)
-            bytes += blend->pAttachments[i].blendEnable ? 16 : 8;
+            bytes += (blend->pAttachments[i].blendEnable ? 2 : 1) * (float)bytes_of_attachment(info, i);
     return bytes;
 }
 
@@ -584,6 +620,7 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_of_device(VkDevice device, c
                    COUNTED("vkCreatePipelineLayout", create_layout),
                    COUNTED("vkCreateComputePipelines", create_compute),
                    COUNTED("vkCreateGraphicsPipelines", create_graphics),
+                   COUNTED("vkCreateRenderPass", create_render_pass),
                    COUNTED("vkSetDebugUtilsObjectNameEXT", set_name),
                    COUNTED("vkDestroyPipeline", destroy_pipeline),
                    COUNTED("vkCmdBindPipeline", bind_pipeline),
@@ -643,7 +680,7 @@ void counting_close(host_device *device)
     for (uint32_t i = 0; i < counting.pass_count; i++)
         free_costs(&counting.passes[i]);
     handle_map *maps[] = {&counting.modules, &counting.layouts, &counting.resources, &counting.sets,
-                          &counting.pipelines};
+                          &counting.pipelines, &counting.targets};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         handle_map_free(maps[i]);
     free(counting.kept);

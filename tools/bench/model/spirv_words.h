@@ -72,6 +72,7 @@ typedef enum spirv_op {
     OP_BIT_LAST = 205,
     OP_CONTROL_BARRIER = 224,
     OP_ATOMIC_FIRST = 227,
+    OP_ATOMIC_STORE = 228,
     OP_ATOMIC_I_ADD = 234,
     OP_ATOMIC_LAST = 242,
     OP_PHI = 245,
