@@ -24,10 +24,10 @@ typedef struct virga_streams_gpu virga_streams_gpu;
 typedef struct virga_ground_blocks_gpu virga_ground_blocks_gpu;
 #endif
 
-#define VIRGA_GROUND_GROUP      256
-#define VIRGA_GROUND_IMPACTS_EACH 64 /* of a workgroup: as the head of a list of impacts counts them */
-#define VIRGA_GROUND_PAIRS_EACH 4   /* blocks of a workgroup of a flow pass */
-#define VIRGA_GROUND_BLOCK      512 /* cells of a block: eight rows of a tile, so that a workgroup has its pairs */
+#define VIRGA_GROUND_GROUP        256
+#define VIRGA_GROUND_IMPACTS_EACH 64  /* of a workgroup: as the head of a list of impacts counts them */
+#define VIRGA_GROUND_PAIRS_EACH   4   /* blocks of a workgroup of a flow pass */
+#define VIRGA_GROUND_BLOCK        512 /* cells of a block: eight rows of a tile, so that a workgroup has its pairs */
 /* mean height of each quarter of all bumps, in units of bumps_um */
 #define VIRGA_GROUND_QUARTERS  -1.52, -0.42, 0.42, 1.52
 #define VIRGA_GROUND_FAR_SHIFT 3

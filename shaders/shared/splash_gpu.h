@@ -205,12 +205,12 @@ struct virga_splash_draw_gpu {
 
 /* Result of a prepare. */
 struct virga_splash_prepared_gpu {
-    virga_splash_draw_gpu lines;      /* droplets of one colour, drawn as lines */
-    virga_splash_draw_gpu thin_quads; /* other sprites of one colour: droplets and piles */
-    virga_splash_draw_gpu puffs;      /* distant splashes */
+    virga_splash_draw_gpu lines;       /* droplets of one colour, drawn as lines */
+    virga_splash_draw_gpu thin_quads;  /* other sprites of one colour: droplets and piles */
+    virga_splash_draw_gpu puffs;       /* distant splashes */
     virga_splash_draw_gpu puff_crowns; /* those whose crowns are drawn one by one, an instance each */
-    virga_splash_draw_gpu wide_quads; /* sprites that refract what is behind them; (paper) pyramids */
-    virga_splash_draw_gpu crowns;     /* sheets of crowns; (paper) pyramids of crowns */
+    virga_splash_draw_gpu wide_quads;  /* sprites that refract what is behind them; (paper) pyramids */
+    virga_splash_draw_gpu crowns;      /* sheets of crowns; (paper) pyramids of crowns */
     uint sprites;
     uint list_groups[3]; /* of the pass that writes the list; 0: the prefix sum pass has done so */
     uint cut[2];         /* sprites and sheets that were dropped because the buffer was full */

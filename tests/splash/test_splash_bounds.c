@@ -10,8 +10,8 @@
 
 #include <string.h>
 
-#define CROWNS 16384
-#define POINTS 256 /* around each, as puff_bounds.comp has it */
+#define CROWNS      16384
+#define POINTS      256 /* around each, as puff_bounds.comp has it */
 #define PUFFS       16384
 #define PUFF_POINTS 64 /* of each, as puff_rects.comp has it */
 

@@ -360,10 +360,10 @@ static void read_result(reader *r, const uint32_t *at, uint32_t length, uint32_t
 /* True for instructions in functions with a type and a result. */
 static bool has_result(uint32_t op)
 {
-    return !(op == OP_STORE || op == 63 || op == 64 || op == OP_IMAGE_WRITE || op == OP_ATOMIC_STORE || op == OP_LABEL || op == 8 ||
-             op == 317 || op == 0 || op == OP_LOOP_MERGE || op == OP_SELECTION_MERGE || op == OP_BRANCH ||
-             op == OP_BRANCH_CONDITIONAL || op == OP_SWITCH || op == 56 || (op >= OP_KILL && op <= OP_UNREACHABLE) ||
-             op == OP_CONTROL_BARRIER || op == 225);
+    return !(op == OP_STORE || op == 63 || op == 64 || op == OP_IMAGE_WRITE || op == OP_ATOMIC_STORE ||
+             op == OP_LABEL || op == 8 || op == 317 || op == 0 || op == OP_LOOP_MERGE || op == OP_SELECTION_MERGE ||
+             op == OP_BRANCH || op == OP_BRANCH_CONDITIONAL || op == OP_SWITCH || op == 56 ||
+             (op >= OP_KILL && op <= OP_UNREACHABLE) || op == OP_CONTROL_BARRIER || op == 225);
 }
 
 static void read_cost(reader *r, const uint32_t *at, uint32_t length, uint32_t op)

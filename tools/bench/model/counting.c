@@ -679,8 +679,8 @@ void counting_close(host_device *device)
 {
     for (uint32_t i = 0; i < counting.pass_count; i++)
         free_costs(&counting.passes[i]);
-    handle_map *maps[] = {&counting.modules, &counting.layouts, &counting.resources, &counting.sets,
-                          &counting.pipelines, &counting.targets};
+    handle_map *maps[] = {&counting.modules, &counting.layouts,   &counting.resources,
+                          &counting.sets,    &counting.pipelines, &counting.targets};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         handle_map_free(maps[i]);
     free(counting.kept);
