@@ -1,5 +1,5 @@
-/* The box around a small crown outside of which its pixels are not worked out: crown_may_cover of puff_ring.glsl. And the
- * rectangles of a puff's crowns that are drawn one by one: crown_rect of puff_crowns.glsl. */
+/* The box around a small crown outside of which its pixels are not worked out: crown_may_cover of puff_ring.glsl. And
+ * the rectangles of a puff's crowns that are drawn one by one: crown_rect of puff_crowns.glsl. */
 #include "../host/effect_fixture.h"
 
 #include "puff_bounds.spv.h"

@@ -8,9 +8,9 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-// Whether the crowns of a puff are drawn one by one, in the film's style: where most of its pixels are between them. Such
-// a puff has all the vertices that a puff may have, which cost software Vulkan as much as a thousand pixels. Small
-// crowns close together have a veil between them, see puff_crowns.glsl.
+// Whether the crowns of a puff are drawn one by one, in the film's style: where most of its pixels are between them.
+// Such a puff has all the vertices that a puff may have, so a small one is not worth it. Small crowns close together
+// have a veil between them, see puff_crowns.glsl.
 #define ONE_BY_ONE_PX2 2048.0
 #define CROWN_PX2      32.0 // of a cell: without a veil
 

@@ -304,8 +304,8 @@ static void cost_of_texels(reader *r, const uint32_t *at, uint32_t op)
     touch(b, image->resource, bytes, writes);
 }
 
-/* An atomic whose result nobody takes returns nothing, and the wave goes on: AMD's "RDNA 2 Instruction Set Architecture"
- * (2020), GLC bit of global and buffer atomics. */
+/* An atomic whose result nobody takes returns nothing, and the wave goes on: AMD's "RDNA 2 Instruction Set
+ * Architecture" (2020), GLC bit of global and buffer atomics; from memory. */
 static void cost_of_atomic(reader *r, const uint32_t *at)
 {
     const bool is_store = (at[0] & 0xffff) == OP_ATOMIC_STORE; /* has no result */
