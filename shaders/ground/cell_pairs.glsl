@@ -1,10 +1,10 @@
-// cell_pairs.glsl - the passes that share and soak in what fell, on a GPU: they look at each cell of the blocks that have
-// ground, where software Vulkan looks at the cells of each impact.
+// cell_pairs.glsl - the passes that share and soak in what fell, on a GPU: they look at each cell of the blocks that
+// have ground, where software Vulkan looks at the cells of each impact.
 //
 // An impact may stand for dozens of drops and wet a thousand cells, one after another, while few lanes have such
 // impacts: the pass takes as long as the longest of them, in loads that wait for each other. All cells of 512 x 512 are
-// 2 MB, which a GPU reads in less time, side by side. What a cell gets is a sum of integers, so both ways leave the same
-// bits. Include cells.glsl before, and arrivals.
+// 2 MB, which a GPU reads in less time, side by side. What a cell gets is a sum of integers, so both ways leave the
+// same bits. Include cells.glsl before, and arrivals.
 #include "gpu/variants.glsl"
 #include "blocks.glsl"
 

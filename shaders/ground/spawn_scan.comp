@@ -27,8 +27,8 @@ float next_near(float near_m, float found)
     return clamp(wanted, MIN_NEAR_M, MAX_NEAR_M);
 }
 
-// Pieces of an impact that splash; NO_SPAWN if it is not of this tick. All is read at once, as the pass takes as long as
-// the reads of an invocation that wait for each other.
+// Pieces of an impact that splash; NO_SPAWN if it is not of this tick. All is read at once, as the pass takes as long
+// as the reads of an invocation that wait for each other.
 uint splashes_of(uint index)
 {
     const uint fallen = impacts[index].tick, material = impacts[index].material;

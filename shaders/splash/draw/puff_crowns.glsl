@@ -2,8 +2,8 @@
 // ellipse, each at its own position in a cell of a grid. Include shared/random.h and
 // puff_ring.glsl before.
 //
-// `shape` and `axis_chance` are those of sprite_corner.glsl. Positions are in pixels: x from the sprite's middle line, y
-// from its tail. A pixel belongs to one cell, and only that cell's crown covers it.
+// `shape` and `axis_chance` are those of sprite_corner.glsl. Positions are in pixels: x from the sprite's middle line,
+// y from its tail. A pixel belongs to one cell, and only that cell's crown covers it.
 
 // A column of cells. Each has its own offset, or they would form rows.
 struct PuffColumn {
@@ -77,8 +77,8 @@ PuffCrown crown_of_pixel(vec4 shape, vec4 axis_chance, vec2 at)
 }
 
 // Where crowns of a puff are drawn one by one: the part of a crown's cell that it may cover, as two opposite corners.
-// The cells at the borders go on to the corners of all, `low` and `high`. Empty for numbers past the puff's crowns. With
-// a veil it is the whole cell.
+// The cells at the borders go on to the corners of all, `low` and `high`. Empty for numbers past the puff's crowns.
+// With a veil it is the whole cell.
 vec4 crown_rect(vec4 shape, vec4 axis_chance, uint number, vec2 low, vec2 high)
 {
     const uint columns = uint(puff_columns(axis_chance)), rows = uint(puff_rows(axis_chance));
