@@ -302,7 +302,7 @@ vec3 seen_normal(vec3 v)
 void main()
 {
     const vec3 n = seen_normal(normalize(-in_relative));
-    const Water water = water_at(in_relative, n);
+    const Water water = water_at(in_relative, n, 1.0);
     const bool cloth = surface.lamps.z > 0.0; // no water lies on it
     write(vec3(0.0), 1.0, n, vec3(0.0), cloth ? vec2(0.0) : vec2(max(water.damp, water.film), water.depth_mm * 1e-3));
 }
