@@ -293,6 +293,7 @@ class _Glb:
             pbr["baseColorTexture"] = {"index": used.index(m["image"])}
         if "joints" in m:
             out["occlusionTexture"] = {"index": used.index(m["joints"])}
+            out["extras"] = {"virga_joints": True}
         if "bump" in m:
             out["normalTexture"] = {"index": used.index(m["bump"])}
         if "emit" in m:

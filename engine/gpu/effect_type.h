@@ -234,7 +234,7 @@ typedef struct virga_effect_type {
     virga_result (*init)(void *object);
     /* (optional) Creates what rows can not describe. Buffers, images and layouts exist already, passes do not. */
     virga_result (*create)(void *object);
-    /* (optional) Fills what takes milliseconds to work out. It comes last, so that nothing which fails waited for it. */
+    /* (optional) Fills what takes milliseconds to work out. Last, so that nothing which fails waited for it. */
     virga_result (*fill)(void *object);
     /* (optional) Releases what init and create created. NULL pointers are accepted. */
     void (*destroy)(void *object);

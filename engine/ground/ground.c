@@ -376,7 +376,8 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(ground)
 const virga_effect_type ground_type = {
     VIRGA_EFFECT_TYPE(ground, "the ground", "ground_settings"),
     VIRGA_TABLE(image),
-    VIRGA_CALLBACKS(fit_device, extra_bytes, init, create, fill, destroy, fill_settings, check_settings, apply_settings),
+    VIRGA_CALLBACKS(fit_device, extra_bytes, init, create, fill, destroy, fill_settings, check_settings,
+                    apply_settings),
     .draws = ground_draws,
     .draw_count = 1,
     .draw_layout = 1,

@@ -299,16 +299,17 @@ static void joints_are_beside_the_color(void **state)
 
 #define BASE  "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"
 #define DEPTH "\"occlusionTexture\":{\"index\":1}"
+#define SAYS  "\"extras\":{\"virga_joints\":true}"
 
-/* What is cut out or transparent has alpha of its own. */
-static void only_opaque_materials_have_joints(void **state)
+/* What is cut out or transparent has alpha of its own, and occlusion is mostly just that. */
+static void opaque_materials_that_say_so_have_joints(void **state)
 {
     fixture *f = *state;
     const int order[3] = {0, 1, 2};
     host_mesh mesh;
     const char *path = write_lamps(
-        "{\"name\":\"a\"," BASE "," DEPTH "},{\"name\":\"b\"," BASE "},{\"name\":\"c\",\"alphaMode\":\"BLEND\","
-        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,0.5]}," DEPTH "}],"
+        "{\"name\":\"a\"," BASE "," DEPTH "," SAYS "},{\"name\":\"b\"," BASE "," DEPTH "},{\"name\":\"c\",\"alphaMode\":\"BLEND\","
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,0.5]}," DEPTH "," SAYS "}],"
         "\"textures\":[{\"source\":0},{\"source\":1}],\"images\":[{\"uri\":\"data:image/png;base64,"
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mM4kWIEAANWAV/W6lf+AAAAAElFTkSuQmCC\"},{\"uri\":"
         "\"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR42mNg+A8AAQIBANEay48AAAAASUV"
@@ -345,7 +346,7 @@ int main(void)
         cmocka_unit_test(missing_picture),
         cmocka_unit_test(mips_keep_coverage),
         cmocka_unit_test(joints_are_beside_the_color),
-        cmocka_unit_test(only_opaque_materials_have_joints),
+        cmocka_unit_test(opaque_materials_that_say_so_have_joints),
         cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -53,7 +53,8 @@ budget all 100000000 || fail "water of wheels"
 
 # The roof is 1 m^2 and drips along its way: 30 mm/h on it are 1,250 ul in 0.15 s. Nothing else can.
 draw drive drips --layers depth --stats --frames 1-6 --set splash.drips.on=true
-VIRGA_VALIDATE=0 draw drive dry --layers depth --stats --frames 1-6 --set splash.drips.on=true --set splash.drips.moving=false
+VIRGA_VALIDATE=0 draw drive dry --layers depth --stats --frames 1-6 --set splash.drips.on=true \
+    --set splash.drips.moving=false
 budget drips 100000000 || fail "water of wheels and drips"
 python3 - "$work" <<'END' || fail "drips of what drives"
 import json, sys

@@ -99,6 +99,20 @@ float host_gltf_strength(const host_gltf *gltf, const host_device *device, const
     return strength >= 0.0f ? strength : 1.0f;
 }
 
+bool host_gltf_has_joints(const host_gltf *gltf, const char *name)
+{
+    size_t i;
+    const json_t *material;
+    if (!gltf)
+        return false;
+    json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
+    {
+        if (is_called(material, name))
+            return json_is_true(json_object_get(json_object_get(material, "extras"), "virga_joints"));
+    }
+    return false;
+}
+
 float host_gltf_transmission(const host_gltf *gltf, const char *name)
 {
     size_t i;

@@ -1,5 +1,5 @@
 /* gltf.h - what Assimp does not read in a glTF file: the strength of emitted light, KHR_materials_emissive_strength,
- * and light that comes through thin cloth, KHR_materials_diffuse_transmission. */
+ * light that comes through thin cloth, KHR_materials_diffuse_transmission, and that a material has joints. */
 #ifndef VIRGA_HOST_GLTF_H
 #define VIRGA_HOST_GLTF_H
 
@@ -19,6 +19,10 @@ float host_gltf_strength(const host_gltf *gltf, const host_device *device, const
 /* diffuseTransmissionFactor, [0; 1], of the first material with this name; 0 if it has none or without a file. Its
  * color is that of the base: color and textures of the extension are not read. */
 float host_gltf_transmission(const host_gltf *gltf, const char *name);
+
+/* Whether the first material with this name says in its `extras` that its occlusion texture is a map of joints:
+ * "virga_joints": true. Without a file false. */
+bool host_gltf_has_joints(const host_gltf *gltf, const char *name);
 
 void host_gltf_free(host_gltf *gltf);
 

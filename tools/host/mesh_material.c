@@ -191,10 +191,12 @@ static void read_alpha(const host_mesh_build *build, const struct aiMaterial *in
     }
 }
 
-/* A texture of its own with the joints of a material whose texture has no alpha. Without memory it has no joints. */
+/* A texture of its own with the joints of a material whose texture has no alpha. Without memory it has no joints. An
+ * occlusion texture is mostly what its name says, so the file has to say that it shows joints. */
 static void read_joints(host_mesh_build *build, const struct aiMaterial *in, host_material *out)
 {
-    if (out->base_texture < 0 || out->alpha != HOST_ALPHA_OPAQUE || build->pictures[out->base_texture].alpha)
+    if (out->base_texture < 0 || out->alpha != HOST_ALPHA_OPAQUE || build->pictures[out->base_texture].alpha ||
+        !host_gltf_has_joints(build->gltf, out->name))
         return;
     const int32_t occlusion = find_texture(build, in, aiTextureType_LIGHTMAP); /* Assimp's name for glTF's occlusion */
     if (occlusion < 0)

@@ -138,8 +138,7 @@ static void draw_primitive(drawing *d, const host_primitive *primitive, const ho
     uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
     if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
         level = count; /* glass stays in its order */
-    const bool one_shader =
-        kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_DATA || kind == HOST_PIPELINE_FOOTAGE;
+    const bool one_shader = kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_DATA || kind == HOST_PIPELINE_FOOTAGE;
     level = one_shader ? count : level;
     draw_indices(d, kind, material->two_sided, first, level);
     draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
@@ -548,7 +547,8 @@ bool host_renderer_footage(host_renderer *r, VkCommandBuffer cmd, const host_tar
 
 static bool may_share(const host_renderer *r, const host_target *target, const host_camera *camera)
 {
-    return camera->shares > 1 && r->parts == HOST_PLATE_WHOLE && r->reuse.width == target->width && r->reuse.height == target->height;
+    return camera->shares > 1 && r->parts == HOST_PLATE_WHOLE && r->reuse.width == target->width &&
+           r->reuse.height == target->height;
 }
 
 /* Velocities are the camera's: what moves by itself is told apart by its id. That does not do where it shows what is
