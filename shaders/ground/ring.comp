@@ -27,7 +27,7 @@ layout(scalar, set = 0, binding = 10) readonly buffer Landings { virga_landing_g
 #define MAX_NEW_RINGS 2048  // max rings in a tick: ten times the quota of a tick of 1 / 60 s
 
 shared uint sums[LANES];
-shared uvec3 parts[LANES];
+shared uint parts[3][LANES]; // three arrays: with 512 lanes all is 16 KB, which every device has
 shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_MAX_PIECES + piece; in order
 
 float drops_of_piece(uint index) { return impacts[index].weight / float(piece_count(impacts[index])); }
@@ -75,14 +75,16 @@ RingCounts count_below(float bar)
             if (float(measure) < bar)
                 own += uvec3(pieces, (pieces * measure) & 1023u, (pieces * measure) >> 10);
         }
-    parts[lane] = own;
+    for (uint i = 0u; i < 3u; i++)
+        parts[i][lane] = own[i];
     for (uint reach = LANES / 2u; reach > 0u; reach /= 2u) {
         barrier();
         if (lane < reach)
-            parts[lane] += parts[lane + reach];
+            for (uint i = 0u; i < 3u; i++)
+                parts[i][lane] += parts[i][lane + reach];
     }
     barrier();
-    const uvec3 all = parts[0];
+    const uvec3 all = uvec3(parts[0][0], parts[1][0], parts[2][0]);
     barrier();
     return RingCounts(float(all.x), float(all.y) + 1024.0 * float(all.z));
 }

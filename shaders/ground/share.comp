@@ -1,5 +1,5 @@
 // share.comp - what fell on a cell in this tick fills its pores, and the rest is shared with the four neighbours.
-// On software Vulkan one invocation per impact, on a GPU one per four cells of the blocks that have ground: see
+// On software Vulkan one invocation per impact, on a GPU one per some cells of the blocks that have ground: see
 // cell_pairs.glsl. Reads: floors, cells as before this tick. Writes: arrivals.
 // Paper: Mizukami et al., section 4.6.1 and figure 7, extended from a line to the plane.
 //

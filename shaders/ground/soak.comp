@@ -1,5 +1,5 @@
 // soak.comp - the water that came to a cell fills its pores first; the rest stays on it.
-// On software Vulkan one invocation per impact, for the cells that it reached; on a GPU one per four cells of the
+// On software Vulkan one invocation per impact, for the cells that it reached; on a GPU one per some cells of the
 // blocks that have ground: see cell_pairs.glsl. Reads: arrivals, floors. Writes: cells, arrivals (cleared).
 #version 460
 #extension GL_EXT_scalar_block_layout : require

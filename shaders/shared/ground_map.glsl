@@ -118,14 +118,16 @@ float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at
 //
 // as the strip has its own rain, too. Joints are the first to be dark along all their length, and the last to dry.
 
-// Width of the dark strip on each side, at most most_m.
+// Width (m) of the dark strip on each side, at most most_m. `wet`: [0; 1] of the pores' volume, as
+// virga_ground_wetness.wet; `width_m`: of the joint, above 0.
 float virga_ground_joint_strip(float wet, float width_m, float most_m)
 {
     return min(0.5 * width_m * wet / max(0.1 - wet, 1e-6), most_m);
 }
 
 // [0; 1] Darkness at a distance from a joint's edge, < 0 in the joint: by the grains' films in it and by the strip
-// beside it, which fades over its outer half. `pixel_m`: over so much the result is averaged. 0 from most_m on.
+// beside it, which fades over its outer half. `pixel_m`: over so much the result is averaged. 0 from most_m (above 0)
+// on.
 float virga_ground_joint(float wet, float away_m, float width_m, float most_m, float pixel_m)
 {
     const float strip = virga_ground_joint_strip(wet, width_m, most_m / 1.5);

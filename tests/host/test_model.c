@@ -308,8 +308,9 @@ static void opaque_materials_that_say_so_have_joints(void **state)
     const int order[3] = {0, 1, 2};
     host_mesh mesh;
     const char *path = write_lamps(
-        "{\"name\":\"a\"," BASE "," DEPTH "," SAYS "},{\"name\":\"b\"," BASE "," DEPTH "},{\"name\":\"c\",\"alphaMode\":\"BLEND\","
-        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,0.5]}," DEPTH "," SAYS "}],"
+        "{\"name\":\"a\"," BASE "," DEPTH "," SAYS "},{\"name\":\"b\"," BASE "," DEPTH "},"
+        "{\"name\":\"c\",\"alphaMode\":\"BLEND\"," DEPTH "," SAYS ","
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,0.5]}}],"
         "\"textures\":[{\"source\":0},{\"source\":1}],\"images\":[{\"uri\":\"data:image/png;base64,"
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mM4kWIEAANWAV/W6lf+AAAAAElFTkSuQmCC\"},{\"uri\":"
         "\"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR42mNg+A8AAQIBANEay48AAAAASUV"

@@ -15,7 +15,6 @@
 #define TILES    (MAP_SIZE / GROUP)
 #define SIDE_M   20.0
 #define AHEAD_M  6.5 /* its middle is so far before the camera */
-#define STEP_M   2.0 /* in steps, so that it is not made in every frame */
 #define EYES_M   1.6 /* of the camera above the ground, about */
 #define SLANT    0.25f
 #define REACH_M  1.8   /* of shade: as far as shaders/contact.comp looks, and what slanted looks move things by */
@@ -126,7 +125,7 @@ void host_contact_tilt(host_contact *c, const double middle_m[3], const double s
     const host_contact before = *c;
     const bool slopes = hypot(slope[0], slope[1]) > LEVEL;
     for (int i = 0; i < 3; i++) {
-        c->tilt_m[i] = middle_m[i];
+        c->tilt_m[i] = slopes ? middle_m[i] : 0;
         c->ready = c->ready && !differ(c->tilt_m[i], before.tilt_m[i]);
     }
     for (int i = 0; i < 2; i++) {
@@ -143,7 +142,8 @@ bool host_contact_place(host_contact *c, const host_camera *camera, const double
     const double length = hypot((double)m[2], (double)m[10]);
     for (int axis = 0; axis < 3; axis += 2) {
         const double ahead = length > 1e-3 ? -AHEAD_M * (double)m[2 + 4 * axis] / length : 0;
-        c->low_m[axis] = floor((camera->position_m[axis] + ahead - 0.5 * SIDE_M) / STEP_M + 0.5) * STEP_M;
+        c->low_m[axis] =
+            floor((camera->position_m[axis] + ahead - 0.5 * SIDE_M) / HOST_CONTACT_STEP_M + 0.5) * HOST_CONTACT_STEP_M;
     }
     c->low_m[1] = ground_m[0] - 0.1;
     c->height_m = fmax(high_m - ground_m[0] + 0.2, 1);

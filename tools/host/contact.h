@@ -23,6 +23,7 @@ typedef enum host_contact_map {
 } host_contact_map;
 
 #define HOST_CONTACT_LOOKS  5    /* of maps from below; maps from above and of the ground have one */
+#define HOST_CONTACT_STEP_M 2.0  /* it moves in steps, so that it is not made in every frame */
 #define HOST_CONTACT_NEAR_M 20.0 /* from the camera, it covers no more */
 
 /* Boxes around things. */
@@ -47,9 +48,9 @@ typedef struct host_contact {
     bool ready;             /* it is made, so: */
     double low_m[3];        /* its low corner, and the height of depth 0 as seen from below */
     double height_m;        /* from there to depth 1 */
-    double level_m;         /* about that of the ground at tilt_m: slanted looks move nothing there */
-    double tilt_m[3];       /* a place on sloping ground ... */
-    double slope[2];        /* ... and how it rises along x and z from there; 0: it is level */
+    double level_m;         /* about that of level ground: slanted looks move nothing there */
+    double tilt_m[3];       /* a place on sloping ground, in place of level_m ... */
+    double slope[2];        /* ... and how it rises along x and z from there; 0: level_m counts */
     uint32_t moving_count;  /* meshes that are in none of the first three maps */
     host_contact_box moved; /* around what moves on it, when it was made */
 } host_contact;
@@ -58,7 +59,8 @@ typedef struct host_contact {
 bool host_contact_create(host_device *device, VkRenderPass pass, host_contact *contact, char *error, size_t error_size);
 void host_contact_destroy(host_device *device, host_contact *contact);
 
-/* Says how the ground slopes, before host_contact_place: its middle, and its rise per metre along x and z. */
+/* Says how the ground slopes, before host_contact_place: a place on it, and its rise per metre along x and z. What
+ * hardly slopes is level. */
 void host_contact_tilt(host_contact *contact, const double middle_m[3], const double slope[2]);
 
 /* Chooses the place of the map, for ground between two heights and a scene up to `high_m` of which so many meshes move.

@@ -44,7 +44,9 @@ typedef struct host_primitive {
     bool ground;           /* host_is_ground of its name */
     float cover;           /* share of the surface that is not cut out; 1 for opaque materials */
     float low[3], high[3]; /* bounds */
-    float slope[2];        /* of the plane through its vertices (least squares of y): along x, along z */
+    float middle[3];       /* mean of its vertices ... */
+    float slope[2];        /* ... and slopes of the plane through them (least squares of y): along x, along z ... */
+    float off;             /* ... and the farthest of them from it, along y */
 } host_primitive;
 
 typedef struct host_mesh {

@@ -153,9 +153,9 @@ static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_
 /* ---- primitives --------------------------------------------------------------------------------------------- */
 
 /* The plane y = a + slope[0] x + slope[1] z of least squares. Level, where the vertices stand in a line. */
-static void find_slope(const host_vertex *vertices, uint32_t count, float slope[2])
+static void find_plane(const host_vertex *vertices, uint32_t count, host_primitive *out)
 {
-    double mean[3] = {0}, xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
+    double mean[3] = {0}, off = 0, xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
     for (uint32_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
             mean[c] += (double)vertices[i].position[c] / count;
@@ -166,8 +166,17 @@ static void find_slope(const host_vertex *vertices, uint32_t count, float slope[
     }
     const double det = xx * zz - xz * xz;
     const bool flat = det > 1e-9 * xx * zz;
-    slope[0] = flat ? (float)((xy * zz - zy * xz) / det) : 0;
-    slope[1] = flat ? (float)((zy * xx - xy * xz) / det) : 0;
+    const double slope[2] = {flat ? (xy * zz - zy * xz) / det : 0, flat ? (zy * xx - xy * xz) / det : 0};
+    for (uint32_t i = 0; i < count; i++) {
+        const float *at = vertices[i].position;
+        const double plane = mean[1] + slope[0] * ((double)at[0] - mean[0]) + slope[1] * ((double)at[2] - mean[2]);
+        off = fmax(off, fabs((double)at[1] - plane));
+    }
+    for (int c = 0; c < 3; c++)
+        out->middle[c] = (float)mean[c];
+    for (int i = 0; i < 2; i++)
+        out->slope[i] = (float)slope[i];
+    out->off = (float)off;
 }
 
 static void find_bounds(const host_vertex *vertices, uint32_t count, float low[3], float high[3])
@@ -211,7 +220,7 @@ static bool add_primitive(host_mesh_build *build, const struct aiNode *node, uin
     repair_normals(build->vertices, build->vertex_count, mesh->mNumVertices, build->indices + build->index_count,
                    index_count);
     find_bounds(build->vertices + build->vertex_count, mesh->mNumVertices, primitive->low, primitive->high);
-    find_slope(build->vertices + build->vertex_count, mesh->mNumVertices, primitive->slope);
+    find_plane(build->vertices + build->vertex_count, mesh->mNumVertices, primitive);
     build->vertex_count += mesh->mNumVertices;
     build->index_count += index_count;
     build->primitive_count++;

@@ -211,6 +211,7 @@ static void read_joints(host_mesh_build *build, const struct aiMaterial *in, hos
         return;
     out->joints = build->pictures[both].texels != NULL;
     out->base_texture = out->joints ? both : out->base_texture;
+    out->base_color[3] = out->joints ? 1 : out->base_color[3]; /* which an opaque material does not use */
 }
 
 static void read_material(host_mesh_build *build, const struct aiMaterial *in, host_material *out)

@@ -6,8 +6,9 @@
 #include "accumulate.h"
 #include "renderer_internal.h"
 
-#define MIRROR_STEP_PX 1.0
-#define MIN_ROUGHNESS  0.04f /* below, highlights of point lights fall between pixels */
+#define MIRROR_STEP_PX  1.0
+#define CONTACT_PLANE_M 0.5   /* ground that is farther off its mean plane has hills */
+#define MIN_ROUGHNESS   0.04f /* below, highlights of point lights fall between pixels */
 
 /* ---- meshes ------------------------------------------------------------------------------------------------- */
 
@@ -333,27 +334,63 @@ static void find_ground(const host_renderer *r, const double camera_m[3], double
         heights_m[i] = best[0] <= best[1] ? best[i] : 0;
 }
 
-/* How the ground around the camera slopes: the mean of its parts, by their areas, so that it seldom changes. */
-static void tilt_contact(host_renderer *r, const double camera_m[3], double near_m)
+/* Area of a part of the ground within `near_m` of a place; 0 for others. */
+static double area_near(const host_primitive *p, const double at_m[3], double near_m)
+{
+    double area = p->ground ? 1 : 0;
+    for (int k = 0; k < 3; k += 2) {
+        const double low = (double)p->low[k], high = (double)p->high[k];
+        area *= low < at_m[k] + near_m && high > at_m[k] - near_m ? high - low : 0;
+    }
+    return area;
+}
+
+/* The mean of the ground's parts near a place, by their areas: its middle and its slope. */
+static void mean_ground(const host_renderer *r, const double at_m[3], double middle_m[3], double slope[2])
 {
     double sum[6] = {0};
     for (uint32_t e = 0; e < r->entry_count; e++)
         for (uint32_t i = 0; i < r->entries[e].mesh->primitive_count; i++) {
             const host_primitive *p = &r->entries[e].mesh->primitives[i];
-            double area = p->ground ? 1 : 0;
-            for (int k = 0; k < 3; k += 2) {
-                const double low = (double)p->low[k], high = (double)p->high[k];
-                area *= low < camera_m[k] + near_m && high > camera_m[k] - near_m ? high - low : 0;
-            }
+            const double area = area_near(p, at_m, HOST_CONTACT_NEAR_M);
             for (int k = 0; k < 3; k++)
-                sum[k] += area * 0.5 * ((double)p->low[k] + (double)p->high[k]);
+                sum[k] += area * (double)p->middle[k];
             for (int k = 0; k < 2; k++)
                 sum[3 + k] += area * (double)p->slope[k];
             sum[5] += area;
         }
     for (int k = 0; k < 5; k++)
         sum[k] /= sum[5] > 0 ? sum[5] : 1;
-    host_contact_tilt(&r->contact, sum, sum + 3);
+    memcpy(middle_m, sum, 3 * sizeof *sum);
+    memcpy(slope, sum + 3, 2 * sizeof *sum);
+}
+
+/* How far from that plane the ground near a place is, at most. */
+static double off_plane(const host_renderer *r, const double at_m[3], const double middle_m[3], const double slope[2])
+{
+    double most_m = 0;
+    for (uint32_t e = 0; e < r->entry_count; e++)
+        for (uint32_t i = 0; i < r->entries[e].mesh->primitive_count; i++) {
+            const host_primitive *p = &r->entries[e].mesh->primitives[i];
+            const double plane_m = middle_m[1] + slope[0] * ((double)p->middle[0] - middle_m[0]) +
+                                   slope[1] * ((double)p->middle[2] - middle_m[2]);
+            if (area_near(p, at_m, HOST_CONTACT_NEAR_M) > 0)
+                most_m = fmax(most_m, (double)p->off + fabs((double)p->middle[1] - plane_m));
+        }
+    return most_m;
+}
+
+/* The plane of the ground around the camera, or none on hills. It changes where the map may move, as it is made anew
+ * then. */
+static void tilt_contact(host_renderer *r, const double camera_m[3])
+{
+    double at_m[3], middle_m[3], slope[2];
+    for (int k = 0; k < 3; k++)
+        at_m[k] = floor(camera_m[k] / HOST_CONTACT_STEP_M + 0.5) * HOST_CONTACT_STEP_M;
+    mean_ground(r, at_m, middle_m, slope);
+    if (off_plane(r, at_m, middle_m, slope) > CONTACT_PLANE_M)
+        slope[0] = slope[1] = 0;
+    host_contact_tilt(&r->contact, middle_m, slope);
 }
 
 /* Around what moves by itself on the map. */
@@ -389,7 +426,7 @@ static void update_contact(host_renderer *r, VkCommandBuffer cmd, const host_cam
         high[1] = fmaxf(high[1], ceilf(r->entries[e].mesh->high[1])); /* not in the bounds; whole metres, as it bobs */
         moving_count++;
     }
-    tilt_contact(r, camera->position_m, HOST_CONTACT_NEAR_M);
+    tilt_contact(r, camera->position_m);
     const bool placed = host_contact_place(&r->contact, camera, ground_m, (double)high[1], moving_count);
     const host_contact_box moving = moving_on_contact(r);
     const bool moved = memcmp(moving.places, r->contact.moved.places, sizeof moving.places) != 0;

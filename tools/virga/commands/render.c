@@ -34,8 +34,8 @@ static const option_row rows[] = {
      "Default 1; 16 for film",
      false},
     {"--layers", 0, "A,B",
-     "layers of the frames, see below. Without beauty and without layers of effects nothing is lit, and only depth is "
-     "quicker still. Default: all that the scene has",
+     "layers of the frames, see below. Frames of only depth, velocity, normal, id and wetness are quicker, most of all "
+     "those of depth alone. Default: all that the scene has",
      false},
     {"--water-velocity", 0, "PERCENT",
      "velocity.X/Y are those of the water where it covers at least this share of a pixel, 1 to 100. Default: those "
