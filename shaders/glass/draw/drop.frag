@@ -47,13 +47,17 @@ vec3 blended(float level)
     return sum.rgb / max(sum.a, 1e-30);
 }
 
-// A loop, because software Vulkan leaves one as soon as no lane needs it, but runs both sides of a branch.
+// A loop, because software Vulkan leaves one as soon as no lane needs it, but runs both sides of a branch. Its condition
+// is at its end: at the beginning it would cost one more body.
 vec3 light_of_drop()
 {
     const float low = floor(amount.y), share = amount.y - low;
     vec3 sum = vec3(0.0);
-    for (float level = low; level < amount.y + 1.0 && level < low + 2.0; level += 1.0)
+    float level = low;
+    do {
         sum += blended(level) * (level == low ? 1.0 - share : share);
+        level += 1.0;
+    } while (level < amount.y + 1.0 && level < low + 2.0);
     return sum;
 }
 
