@@ -47,8 +47,8 @@ vec3 blended(float level)
     return sum.rgb / max(sum.a, 1e-30);
 }
 
-// A loop, because software Vulkan leaves one as soon as no lane needs it, but runs both sides of a branch. Its condition
-// is at its end: at the beginning it would cost one more body.
+// A loop, because software Vulkan leaves one as soon as no lane needs it, but runs both sides of a branch. Its
+// condition is at its end: at the beginning it would cost one more body.
 vec3 light_of_drop()
 {
     const float low = floor(amount.y), share = amount.y - low;
