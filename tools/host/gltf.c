@@ -99,35 +99,32 @@ float host_gltf_strength(const host_gltf *gltf, const host_device *device, const
     return strength >= 0.0f ? strength : 1.0f;
 }
 
-bool host_gltf_has_joints(const host_gltf *gltf, const char *name)
+/* The first material with this name; NULL: none, or no file. */
+static const json_t *find_material(const host_gltf *gltf, const char *name)
 {
     size_t i;
     const json_t *material;
     if (!gltf)
-        return false;
+        return NULL;
     json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
     {
         if (is_called(material, name))
-            return json_is_true(json_object_get(json_object_get(material, "extras"), "virga_joints"));
+            return material;
     }
-    return false;
+    return NULL;
+}
+
+bool host_gltf_has_joints(const host_gltf *gltf, const char *name)
+{
+    return json_is_true(json_object_get(json_object_get(find_material(gltf, name), "extras"), "virga_joints"));
 }
 
 float host_gltf_transmission(const host_gltf *gltf, const char *name)
 {
-    size_t i;
-    const json_t *material;
-    if (!gltf)
-        return 0.0f;
-    json_array_foreach(json_object_get(gltf->root, "materials"), i, material)
-    {
-        const json_t *extension =
-            json_object_get(json_object_get(material, "extensions"), "KHR_materials_diffuse_transmission");
-        const double value = json_number_value(json_object_get(extension, "diffuseTransmissionFactor"));
-        if (is_called(material, name))
-            return isfinite(value) ? (float)fmin(fmax(value, 0), 1) : 0.0f;
-    }
-    return 0.0f;
+    const json_t *extension =
+        json_object_get(json_object_get(find_material(gltf, name), "extensions"), "KHR_materials_diffuse_transmission");
+    const double value = json_number_value(json_object_get(extension, "diffuseTransmissionFactor")); /* NULL: 0 */
+    return isfinite(value) ? (float)fmin(fmax(value, 0), 1) : 0.0f;
 }
 
 void host_gltf_free(host_gltf *gltf)
