@@ -41,8 +41,8 @@ static int tear_down(void **state)
     fixture *f = *state;
     uint32_t wrong = fixture_end(f);
     free(f);
-    static const char *const names[] = {"plain.obj",   "hurt.gltf",   "empty.obj",  "text.glb",
-                                        "picture.obj", "picture.mtl", "lamps.gltf", "lamps.glb"};
+    static const char *const names[] = {"plain.obj",   "hurt.gltf",  "empty.obj", "text.glb",  "picture.obj",
+                                        "picture.mtl", "lamps.gltf", "lamps.glb", "plane.obj", "ridge.obj"};
     char path[256];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -326,6 +326,28 @@ static void opaque_materials_that_say_so_have_joints(void **state)
     host_mesh_destroy(&f->device, &mesh);
 }
 
+/* The plane y = 2 + 0.1 x - 0.05 z; and the same with two of six vertices 0.6 m higher: the mean plane is 0.2 m higher
+ * then. */
+static void ground_has_a_plane(void **state)
+{
+    fixture *f = *state;
+    const char *plane = "o plane\nv 0 2 0\nv 4 2.4 0\nv 4 2.2 4\nv 0 1.8 4\nf 4 3 2 1\n";
+    const char *ridge =
+        "o ridge\nv 0 2 0\nv 2 2.8 0\nv 4 2.4 0\nv 4 2.2 4\nv 2 2.6 4\nv 0 1.8 4\nf 6 5 2 1\nf 5 4 3 2\n";
+    for (int bent = 0; bent < 2; bent++) {
+        host_mesh mesh;
+        const char *path = write_file(bent ? "ridge.obj" : "plane.obj", bent ? ridge : plane);
+        if (!host_mesh_load(&f->device, path, NULL, &mesh, f->error, sizeof f->error))
+            fail_msg("%s", f->error);
+        const host_primitive *ground = &mesh.primitives[0];
+        assert_float_equal(ground->slope[0], 0.1, 1e-5);
+        assert_float_equal(ground->slope[1], -0.05, 1e-5);
+        assert_float_equal(ground->middle[1], 2 + 0.1 * 2 - 0.05 * 2 + (bent ? 0.2 : 0), 1e-5);
+        assert_float_equal(ground->off, bent ? 0.4 : 0, 1e-5);
+        host_mesh_destroy(&f->device, &mesh);
+    }
+}
+
 static void materials_have_names(void **state)
 {
     (void)state;
@@ -348,6 +370,7 @@ int main(void)
         cmocka_unit_test(mips_keep_coverage),
         cmocka_unit_test(joints_are_beside_the_color),
         cmocka_unit_test(opaque_materials_that_say_so_have_joints),
+        cmocka_unit_test(ground_has_a_plane),
         cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
