@@ -223,9 +223,9 @@ depth_places places_around(int around)
                         (origin + max(vec2(view.width, view.height) - 1.0, 1.0)) * per_pixel);
 }
 
-vec2 ends_at(vec2 place, depth_places from, depth_line line)
+vec4 depths_of_four(vec2 place, depth_places from)
 {
-    return ends_of(textureGather(scene_depth, clamp(place, from.low, from.high)), line);
+    return textureGather(scene_depth, clamp(place, from.low, from.high));
 }
 
 // What all looked-at texels tell.
@@ -246,12 +246,21 @@ void look_at_ends(vec2 from_first, vec2 ends, float farthest, float margin, inou
     told.far = max(told.far, mix(vec2(0.0), vec2(reach.y), lessThanEqual(gaps, vec2(BY_SCALE(0.0, reach.y)))));
 }
 
-// COARSE: all four at once, so that they are waited for once.
-void look_at_16(vec2 place, vec2 from_first, depth_places from, depth_line line, inout told_around told)
+// COARSE: the depths of a texel, of 2 x 2 pixels each.
+struct depths_16 {
+    vec4 a, b, c, d;
+};
+
+depths_16 depths_at(vec2 place, depth_places from)
 {
     const vec2 half_step = 0.5 * from.step_of;
-    const vec2 a = ends_at(place, from, line), b = ends_at(place + vec2(half_step.x, 0.0), from, line);
-    const vec2 c = ends_at(place + vec2(0.0, half_step.y), from, line), d = ends_at(place + half_step, from, line);
+    return depths_16(depths_of_four(place, from), depths_of_four(place + vec2(half_step.x, 0.0), from),
+                     depths_of_four(place + vec2(0.0, half_step.y), from), depths_of_four(place + half_step, from));
+}
+
+void look_at_16(depths_16 of, vec2 from_first, depth_line line, inout told_around told)
+{
+    const vec2 a = ends_of(of.a, line), b = ends_of(of.b, line), c = ends_of(of.c, line), d = ends_of(of.d, line);
     const vec2 ends = both_ends(both_ends(a, b), both_ends(c, d));
     const float wide = 0.25 * VIRGA_LENS_COARSE_TO;
     if (max(-ends.x, ends.y) <= 0.5 * SHARP_REACH)
@@ -276,6 +285,13 @@ void look_at_four(vec2 place, vec2 from_first, depth_places from, depth_line lin
         look_at_ends(from_first + 0.5, ends, line.most, MARGIN + 0.5, told);
 }
 
+// Column and row of the i-th of them in rows.
+vec2 in_rows(float i, float columns, float per_row)
+{
+    const float row = floor((i + 0.5) * per_row);
+    return vec2(i - row * columns, row);
+}
+
 // All texels whose discs may reach the tiles, in squares of two, or one by one if COARSE. A disc has the radius of the
 // square's nearest pixel, or of its farthest one. Loops over so many are most of what tiles in focus cost, so this one
 // computes with floats, which fuse, and decides by depths alone. The last pixels of an odd side are looked at with
@@ -288,21 +304,26 @@ void look_around()
     const int bits = BY_SCALE(0, 1), around = ((int(OWN_MOST + MARGIN) >> bits) + 1) << bits;
     const ivec2 squares = (REGION + 2 * around) >> bits;
     const float columns = float(squares.x), count = columns * float(squares.y);
-    const float per_row = 1.0 / columns, half_row = 0.5 * per_row;
+    const float per_row = 1.0 / columns;
     const depth_line line = line_of_depths();
     const depth_places from = places_around(around);
     const float side = float(1 << bits);
     const vec2 step_of = side * from.step_of;
     told_around told = told_around(vec2(0.0), vec2(0.0), 0u, 0u);
-    for (float i = float(gl_LocalInvocationIndex); i < count; i += float(LANES)) {
-        vec2 at;
-        at.y = floor(i * per_row + half_row);
-        at.x = i - at.y * columns;
+    const float each_turn = BY_SCALE(2.0, 1.0) * float(LANES);
+    for (float i = float(gl_LocalInvocationIndex); i < count; i += each_turn) {
+        const vec2 at = in_rows(i, columns, per_row);
         const vec2 place = at * step_of + from.start, from_first = at * side - float(around);
-        if (COARSE)
-            look_at_16(place, from_first, from, line, told);
-        else
+        if (COARSE) {
+            // Two texels in a turn, all depths at once, so that half as much is waited for. A texel after the last one
+            // is below all of `around`, and reaches nothing.
+            const vec2 other = in_rows(i + float(LANES), columns, per_row);
+            const depths_16 of = depths_at(place, from), of_other = depths_at(other * step_of + from.start, from);
+            look_at_16(of, from_first, line, told);
+            look_at_16(of_other, other * side - float(around), line, told);
+        } else {
             look_at_four(place, from_first, from, line, told);
+        }
     }
     for (int i = 0; i < TILES; i++) {
         if (told.near[i] > SHARP_REACH)
@@ -359,14 +380,24 @@ vec4 weights_near(vec4 radii, float nearest, float per_radius)
 
 vec3 stored_color(ivec2 pixel) { return texelFetch(scene_picture, pixel, 0).rgb; }
 
-// COARSE: the weighted sum of four pixels, as they are stored, and as light.
-vec3 stored_sum(ivec2 low, ivec2 more, vec4 weights)
+// COARSE: four pixels as they are stored, and their weighted sum.
+struct stored_four {
+    vec3 a, b, c, d;
+};
+
+stored_four stored_colors(ivec2 low, ivec2 more)
 {
     const ivec2 high = low + more;
-    return weights.x * stored_color(low) + weights.y * stored_color(ivec2(high.x, low.y)) +
-           weights.z * stored_color(ivec2(low.x, high.y)) + weights.w * stored_color(high);
+    return stored_four(stored_color(low), stored_color(ivec2(high.x, low.y)), stored_color(ivec2(low.x, high.y)),
+                       stored_color(high));
 }
 
+vec3 weighted(stored_four of, vec4 weights)
+{
+    return weights.x * of.a + weights.y * of.b + weights.z * of.c + weights.w * of.d;
+}
+
+// COARSE: likewise, as light.
 vec3 light_sum(ivec2 low, ivec2 more, vec4 weights)
 {
     const ivec2 high = low + more;
@@ -405,8 +436,8 @@ texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float
     vec3 sum = vec3(0.0);
     // Eight at once, so that they are waited for twice: sixteen would spill registers on some cards.
     [[dont_unroll]] for (int lower = 0; SCENE_LINEAR && lower < 2; lower++)
-        sum += stored_sum(lower == 0 ? low : below, more, lower == 0 ? of_a : of_c) +
-               stored_sum(lower == 0 ? right : high, more, lower == 0 ? of_b : of_d);
+        sum += weighted(stored_colors(lower == 0 ? low : below, more), lower == 0 ? of_a : of_c) +
+               weighted(stored_colors(lower == 0 ? right : high, more), lower == 0 ? of_b : of_d);
     if (!SCENE_LINEAR || !(max(max(abs(sum.r), abs(sum.g)), abs(sum.b)) <= 65504.0) || isnan(sum.r + sum.g + sum.b))
         sum = light_sum(low, more, of_a) + light_sum(right, more, of_b) + light_sum(below, more, of_c) +
               light_sum(high, more, of_d);
@@ -415,14 +446,14 @@ texel_sample wide_sample(ivec2 texel, depth_line line, vec2 per_pixel, out float
 
 // From colors as they are stored. Where one of them is infinite or no number, so is their sum, or what is left of it.
 // Where their sum is no more than the largest half float, nothing has to be done about them.
-texel_sample stored_sample(vec3 a, vec3 b, vec3 c, vec3 d, texel_circles of)
+texel_sample stored_sample(stored_four from, texel_circles of)
 {
     if (!SCENE_LINEAR)
-        return mean_sample(scene_light(a), scene_light(b), scene_light(c), scene_light(d), of);
-    texel_sample own = mean_sample(a, b, c, d, of);
+        return mean_sample(scene_light(from.a), scene_light(from.b), scene_light(from.c), scene_light(from.d), of);
+    texel_sample own = mean_sample(from.a, from.b, from.c, from.d, of);
     const float most = max(max(abs(own.color.r), abs(own.color.g)), abs(own.color.b));
     if (!(of.weight * most <= 65504.0) || isnan(own.color.r + own.color.g + own.color.b))
-        own = mean_sample(finite(a), finite(b), finite(c), finite(d), of);
+        own = mean_sample(finite(from.a), finite(from.b), finite(from.c), finite(from.d), of);
     return own;
 }
 
@@ -449,11 +480,11 @@ void keep_samples()
             look_at_wide(at + offset, least);
         } else if (whole) {
             const ivec2 low = clamp(first_pixel + (at << 1), low_pixel, high_pixel);
-            of = circles_of(depth_circles(line, textureGather(scene_depth, vec2(low) * per_pixel + per_pixel).wzxy));
-            own = stored_sample(texelFetch(scene_picture, low, 0).rgb,
-                                texelFetchOffset(scene_picture, low, 0, ivec2(1, 0)).rgb,
-                                texelFetchOffset(scene_picture, low, 0, ivec2(0, 1)).rgb,
-                                texelFetchOffset(scene_picture, low, 0, ivec2(1, 1)).rgb, of);
+            // All are read at once, so that they are waited for once.
+            const vec4 depths = textureGather(scene_depth, vec2(low) * per_pixel + per_pixel).wzxy;
+            const stored_four colors = stored_colors(low, ivec2(1));
+            of = circles_of(depth_circles(line, depths));
+            own = stored_sample(colors, of);
         } else {
             const ivec2 texel = inside(kept_first + at);
             of = circles_of(circles_at(texel));
