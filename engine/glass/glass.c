@@ -174,7 +174,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_TILES] = tiles;
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
-    counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
+    counts[COUNT_WORK] = 4 * tiles + 2 * blocks;
     counts[COUNT_CORNERS] = glass_fog_offset(&sizes, def) + (def->condensation ? blocks * 12 : 0);
     counts[COUNT_FOG_COLUMNS] = def->condensation ? sizes.max_mist.width : 1;
     counts[COUNT_FOG_ROWS] = def->condensation ? sizes.max_mist.height : 1;
@@ -240,7 +240,8 @@ static const virga_effect_buffer buffers[] = {
     {"glass.tiles", AT(picture.tiles), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
     {"glass.entries", AT(picture.entries), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_ENTRIES},
     {"glass.mist", AT(picture.mist), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_MIST},
-    {"glass.written", AT(picture.written), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_TILES, .per_view = true},
+    {"glass.written", AT(picture.written), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_written_gpu), COUNT_TILES,
+     .per_view = true},
     {"glass.work", AT(picture.work), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_work_gpu), 4, COUNT_WORK,
      .per_view = true},
     {"glass.corners", AT(picture.corners), VIRGA_USE_INDEX, DEVICE, 0, 4, COUNT_CORNERS, .per_view = true},
@@ -354,6 +355,7 @@ static const virga_effect_pass passes[] = {
     PICTURE(film_tiles, film_tiles),
     PICTURE(tile_list, tile_list),
     PICTURE(tile_fill, tile_fill),
+    PICTURE(film_changed, film_changed),
     PICTURE(tile_quads, tile_quads),
     PICTURE(plate_copy, plate_copy),
     PICTURE(plate_shrink, plate_shrink),

@@ -211,6 +211,34 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->sheets = s->style == VIRGA_GLASS_STYLE_PHYSICAL || look->whole_map;
 }
 
+/* A hash of all that the maps depend on besides water. Words that are the same in all views of a pane do no harm. */
+static uint32_t map_seed_of(const virga_glass *glass, const virga_glass_picture_gpu *look)
+{
+    const float numbers[] = {look->texel_m[0],   look->texel_m[1], look->drop_nl_of_m3, look->cap_height,
+                             look->film_break_s, look->threshold,  look->compress_from, look->compress_step,
+                             look->compress_k,   look->pinning};
+    const uint32_t words[] = {look->map_columns,
+                              look->map_rows,
+                              look->density,
+                              look->weighted,
+                              look->compress_steps,
+                              look->opaque,
+                              look->sheets,
+                              glass->picture.beads,
+                              look->mist_cells,
+                              glass->shape_count,
+                              (uint32_t)glass->settings.style};
+    uint32_t hash = look->bead_seed;
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        uint32_t bits;
+        memcpy(&bits, &numbers[i], sizeof bits);
+        hash = virga_hash_absorb(hash, bits);
+    }
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        hash = virga_hash_absorb(hash, words[i]);
+    return hash;
+}
+
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
                       glass_view_block *block)
 {
@@ -224,6 +252,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fit_map(glass, &filled);
     fit_bounds(glass, &filled);
     fit_mist(glass, &filled.look);
+    filled.look.map_seed = map_seed_of(glass, &filled.look);
     glass_fill_textures(glass, &filled);
     glass->picture.columns = filled.look.map_columns;
     glass->picture.rows = filled.look.map_rows;
@@ -309,7 +338,7 @@ static uint32_t tile_groups(const struct glass_picture *picture)
     return (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP;
 }
 
-/* Writes the balls, and the list of balls of each tile. */
+/* Writes the balls, and the list of balls of each tile that has changed. */
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
@@ -322,6 +351,8 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->tile_fill, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
+    over_work(glass, cmd, picture->film_changed, offsetof(virga_glass_work_gpu, film_groups));
+    virga_indirect_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -357,7 +388,7 @@ static void record_height_map(virga_glass *glass, VkCommandBuffer cmd)
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
     virga_indirect_barrier(context, cmd); /* both gather passes write group counts of later passes */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
-              offsetof(virga_glass_work_gpu, film_groups));
+              offsetof(virga_glass_work_gpu, changed_groups));
     virga_indirect_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->tile_quads, tile_groups(picture));
     if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER)

@@ -73,6 +73,7 @@ struct virga_glass {
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
     float farthest_m;                                        /* max distance of a node from the pane's origin */
     bool masked;                                             /* some cells may have no glass */
+    uint32_t shape_count;                                    /* changes with the surface, and with its upload */
     float low_m[3], high_m[3];                               /* corners of a box around the shape */
     bool flat;
     uint32_t fog_since;                    /* the tick in which condensation was switched on; 0: it is off */

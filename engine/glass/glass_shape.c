@@ -478,6 +478,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     TRY(glass_picture_need(glass, &glass->settings));
     TRY(virga_recording_result(context));
     remember(glass, nodes->memory.block.mapped);
+    glass->shape_count++;
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);
     glass->surface_upload = cells;

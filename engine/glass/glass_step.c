@@ -551,6 +551,7 @@ static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdCopyBuffer(cmd, glass->nodes_upload->buffer, glass->nodes->buffer, 1, &nodes);
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES | VIRGA_VERTICES);
     virga_effect_uploaded(&glass->base, &glass->surface_upload);
+    glass->shape_count++;
     virga_effect_uploaded(&glass->base, &glass->nodes_upload);
 }
 

@@ -23,8 +23,13 @@ uint pack_strain(vec2 strain) { return packSnorm2x16(strain * (1.0 / max(MAX_STR
 vec2 unpack_tail(uint packed) { return unpackSnorm2x16(packed); }
 uint pack_tail(vec2 tail) { return packSnorm2x16(tail / max(1.0, length(tail))); }
 
-// The part of a change that is left after some time, for a drop with a base of radius a.
-float outline_left(float age_s, float a) { return exp(-age_s * LINE_M_S / max(a, 1e-6)); }
+// The part of a change that is left after some time, for a drop with a base of radius a. In the end none: a drop that
+// has long stood still is drawn as it was before, to the bit, see tiles.glsl.
+float outline_left(float age_s, float a)
+{
+    const float left = exp(-age_s * LINE_M_S / max(a, 1e-6));
+    return left < 5e-5 ? 0.0 : left;
+}
 
 // A strain, `left` of whose excess over what the glass holds is left.
 vec2 strain_left(vec2 strain, float left)

@@ -9,6 +9,7 @@
 #define uint virga_uint
 typedef struct virga_glass_picture_gpu virga_glass_picture_gpu;
 typedef struct virga_glass_tile_gpu virga_glass_tile_gpu;
+typedef struct virga_glass_written_gpu virga_glass_written_gpu;
 typedef struct virga_glass_work_gpu virga_glass_work_gpu;
 typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 typedef struct virga_glass_quad_gpu virga_glass_quad_gpu;
@@ -25,6 +26,7 @@ typedef struct virga_glass_quad_gpu virga_glass_quad_gpu;
 #define VIRGA_GLASS_USUAL_STEPS 5
 #define VIRGA_GLASS_DROP_BALLS  4  /* max balls of one slot */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls per workgroup of the pass that fills the lists */
+#define VIRGA_GLASS_FILM_TILES  8  /* tiles per workgroup of the pass that finds changed film */
 /* texels a side of the background picture's largest copy; smaller ones are to its right */
 #define VIRGA_GLASS_COPY        256
 #define VIRGA_GLASS_COPY_WIDTH  392 /* 256 + 128 + 8 */
@@ -78,6 +80,7 @@ struct virga_glass_picture_gpu {
     uint whole_map;      /* 1: the host reads the map, so all of it is written */
     uint masked;         /* 1: the pane has a mask */
     uint bead_seed;      /* hash of the pane's seed, for beads of film */
+    uint map_seed;       /* hash of the settings that the maps depend on */
     /* from positions relative to the camera to the previous frame's clip space, for points that are fixed on the
      * pane */
     float previous_from_here[16];
@@ -152,13 +155,22 @@ struct virga_glass_quad_gpu {
 #define VIRGA_GLASS_DRAW_DROPLETS 256u /* (fog) some droplets are seen as drops */
 
 /* Flags of virga_glass_tile_gpu.film. */
-#define VIRGA_GLASS_LISTED    2u /* the tile is in the list for the pass that computes slopes */
-#define VIRGA_GLASS_SHOWN     4u /* the tile has something to draw */
-#define VIRGA_GLASS_SPANS_BIT 8  /* first bit of the columns with water; the rows follow */
+#define VIRGA_GLASS_LISTED     2u /* the tile is in the list for the pass that computes slopes */
+#define VIRGA_GLASS_SHOWN      4u /* the tile has something to draw */
+#define VIRGA_GLASS_HAS_SLOPES 8u /* the relief map holds something there since an earlier view */
+#define VIRGA_GLASS_SPANS_BIT  8  /* first bit of the columns with water; the rows follow */
+#define VIRGA_GLASS_SEEN       (0xffffu << VIRGA_GLASS_SPANS_BIT | VIRGA_GLASS_SHOWN)
 
 /* What the images hold of a tile since they were last written. It must be cleared if the tile becomes empty. */
 #define VIRGA_GLASS_HOLDS_WATER  1u /* the height map */
 #define VIRGA_GLASS_HOLDS_RELIEF 2u /* the image that draws with Snell refraction read */
+
+/* The water that a tile of the images shows, of the newest view that changed it. A tile with the same water is not
+ * written again. */
+struct virga_glass_written_gpu {
+    uint holds;      /* VIRGA_GLASS_HOLDS_..., and VIRGA_GLASS_SEEN of virga_glass_tile_gpu.film */
+    uint content[2]; /* as in virga_glass_tile_gpu */
+};
 
 /* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_glass_corners_gpu {
@@ -172,11 +184,11 @@ struct virga_glass_corners_gpu {
 /* Work lists: arguments of indirect dispatches and draws, then counts. The lists follow: tiles without film; from
  * look.max_tiles on, tiles with film; from 2 look.max_tiles on, blocks of the mist map with film that has a shape;
  * look.max_blocks further, tiles with something to show; look.max_tiles further, blocks of the mist map that may have
- * any film. The order in a list does not matter, because entries are independent. All zero when a view's passes
+ * any film; look.max_blocks further, tiles whose film or drops on film have changed. The order in a list does not matter, because entries are independent. All zero when a view's passes
  * begin. */
 struct virga_glass_work_gpu {
     uint tile_groups[3];           /* of the gathering pass over tiles without film */
-    uint film_groups[3];           /* of the gathering pass over tiles with film */
+    uint film_groups[3];           /* of the pass over tiles with film */
     uint ball_groups[3];           /* of the pass that fills the lists */
     uint block_groups[3];          /* of the pass over blocks with film that has a shape */
     uint relief_groups[3];         /* of the pass over tiles that have, or had, something to show */
@@ -194,6 +206,8 @@ struct virga_glass_work_gpu {
     uint mist_groups[3];            /* of the pass over blocks of the mist map that may have any film */
     virga_glass_corners_gpu quads;  /* draw of drops as textures */
     virga_glass_corners_gpu fog[2]; /* draws of blocks with fog: of droplets that are not seen, and that are */
+    uint changed_groups[3];         /* of the gathering pass over tiles whose film or drops on film have changed */
+    uint changed_tiles;             /* entries of the list of them */
 };
 
 /* The water on a tile of the map. */
@@ -202,13 +216,16 @@ struct virga_glass_tile_gpu {
     uint first;  /* first entry of its list */
     uint filled; /* entries written so far */
     uint film;   /* bit 0: film with a shape, or a sheet of film; then VIRGA_GLASS_LISTED, _SHOWN and spans */
+    /* Sums of hashes of all that its texels depend on: two, so that no two contents are taken for the same */
+    uint content[2];
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 24);
+VIRGA_ASSERT_SIZE(virga_glass_written_gpu, 12);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_quad_gpu, 4 * VIRGA_GLASS_QUAD_WORDS);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 208);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 224);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

@@ -108,13 +108,26 @@ vec2 shape_moved(virga_glass_drop_gpu drop, bool runs)
     return strain * (1.0 - (1.0 - look.pinning) * min(size, HELD_STRAIN) / max(size, 1e-6));
 }
 
-void count_tiles(uvec2 reached)
+// `content`: a hash of the ball.
+void count_tiles(uvec2 reached, uvec2 content)
 {
     const uvec2 first = reached & 0xffffu, number = reached >> 16;
     for (uint y = 0u; y < number.y; y++)
-        for (uint x = 0u; x < number.x; x++)
-            atomicAdd(tiles[tile_number(first + uvec2(x, y))].count, 1u);
+        for (uint x = 0u; x < number.x; x++) {
+            const uint tile = tile_number(first + uvec2(x, y));
+            atomicAdd(tiles[tile].count, 1u);
+            atomicAdd(tiles[tile].content[0], content.x);
+            atomicAdd(tiles[tile].content[1], content.y);
+        }
     atomicAdd(entry_count, number.x * number.y);
+}
+
+// All that height.glsl reads of a ball.
+uvec2 hash_of_ball(vec2 at, vec3 size, vec2 sag, vec2 stretch)
+{
+    uvec2 hash = absorb(absorb(BALL_HASH, at.x), at.y);
+    hash = absorb(absorb(absorb(hash, size.x), size.y), size.z);
+    return absorb(absorb(absorb(absorb(hash, sag.x), sag.y), stretch.x), stretch.y);
 }
 
 // Texels that a ball covers as mist. A fading sub-ball has none.
@@ -145,7 +158,7 @@ void emit_balls(vec2 sag, vec2 strain, float whole, float left)
                 float[2](at.x, at.y), radius, mist, float[2](sag.x, sag.y), peak, uint[2](reached.x, reached.y),
                 float[2](stretch.x, stretch.y));
             atomicAdd(shape_count, peak > 0.0 ? 1u : 0u);
-            count_tiles(reached);
+            count_tiles(reached, hash_of_ball(at, vec3(radius, mist, peak), sag, stretch));
             atomicMax(widest, floatBitsToUint(radius));
         }
     }
@@ -165,8 +178,9 @@ void emit_drop(uint slot)
     const float radius = particle ? particle_radius(float(at.water_nl)) : cap_radius(float(at.water_nl));
     for (int i = 0; i < VIRGA_GLASS_DROP_BALLS; i++)
         radii[i] = 0.0;
-    const vec2 middle =
-        mix(vec2(at.previous_position[0], at.previous_position[1]), vec2(at.position[0], at.position[1]), look.share);
+    // Of a drop that stands still this is the same to the bit at any time.
+    const vec2 before = vec2(at.previous_position[0], at.previous_position[1]);
+    const vec2 middle = before + look.share * (vec2(at.position[0], at.position[1]) - before);
     middles[0] = middle;
     radii[0] = radius;
     sub_peak = 1.0;

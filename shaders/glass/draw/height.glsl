@@ -56,7 +56,7 @@ layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; }
 layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; }; // four texels of the mist map in a word
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
 layout(set = 0, binding = 26, r32ui) uniform writeonly uimage2D paper_out;
-layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_HOLDS_..., tile by tile
+layout(scalar, set = 0, binding = 17) buffer Written { virga_glass_written_gpu written[]; };
 
 struct Ball {
     vec2 middle, sag;
@@ -255,12 +255,10 @@ uint write_texel(ivec2 at, Texel texel)
     return PAPER || sheet <= 0.0 ? found : found | WET | (sheet > 1e-6 ? SHOWN : 0u);
 }
 
-// Adds the tile to the list of the next pass. One invocation per tile does so, and only once for a tile that is
-// processed twice.
-void list_tile(uvec2 tile, uint before)
+// Adds a tile to the list of the next pass, once. Where a tile has changed, slopes change in it and at the sides of
+// those beside it: of these, all that have slopes which this view does not write for their own sake.
+void list_tile(uvec2 tile)
 {
-    if (PAPER || (before & VIRGA_GLASS_LISTED) != 0u)
-        return;
     const uint index = atomicAdd(work.relief_tiles, 1u);
     work_list[2u * look.max_tiles + look.max_blocks + index] = packed_tile(tile);
     if (index < VIRGA_GLASS_TILE_ROW)
@@ -269,11 +267,26 @@ void list_tile(uvec2 tile, uint before)
         atomicMax(work.relief_groups[1], index / VIRGA_GLASS_TILE_ROW + 1u);
 }
 
+// By the invocations 0 to 4: the tile, and the four beside it.
+void list_around(ivec2 tile, uint i, bool itself)
+{
+    const ivec2 there = tile + (i == 0u ? ivec2(0) : i == 1u ? ivec2(1, 0) : i == 2u ? ivec2(-1, 0)
+                                                          : i == 3u ? ivec2(0, 1) : ivec2(0, -1));
+    if (there != clamp(there, ivec2(0), ivec2(look.tile_columns, look.tile_rows) - 1))
+        return;
+    const uint number = tile_number(uvec2(there));
+    if (i == 0u ? !itself : (atomicOr(tiles[number].film, 0u) & VIRGA_GLASS_HAS_SLOPES) == 0u)
+        return;
+    if ((atomicOr(tiles[number].film, VIRGA_GLASS_LISTED) & VIRGA_GLASS_LISTED) == 0u)
+        list_tile(uvec2(there));
+}
+
 // The tile of this workgroup, packed. A workgroup beyond the end of the list processes the last tile again.
 uint tile_of_group()
 {
     const uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
-    return work_list[min(index, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
+    return FILM ? work_list[3u * look.max_tiles + 2u * look.max_blocks + min(index, work.changed_tiles - 1u)]
+                : work_list[min(index, work.tiles - 1u)];
 }
 
 // Balls are summed at displaced points.
@@ -348,10 +361,9 @@ void gather()
     const uint number = tile_number(uvec2(tile));
     const ivec2 first = tile * TILE + ivec2(gl_LocalInvocationID.xy);
     const uint count = tiles[number].count;
-    const uint tile_index = uint(tile.x) + uint(tile.y) * look.written_columns, before_map = written[tile_index];
     reach = density_reach();
     // 1.6: the higher side of a ball that sags.
-    unit_m = max(uintBitsToFloat(work.highest), WITH_BEADS ? VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m : 1e-6) *
+    unit_m = max(widest_m(), WITH_BEADS ? VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m : 1e-6) *
              look.cap_height * 1.6;
     begin_texels(first, PINNED);
     add_balls(tiles[number]);
@@ -361,13 +373,17 @@ void gather()
     if (WITH_BEADS)
         add_beads(tile);
     load_sheets(tile * TILE);
-    const uint found = or_reduce(write_texels(first)), relief = PAPER ? 0u : before_map & VIRGA_GLASS_HOLDS_RELIEF;
+    const uint found = or_reduce(write_texels(first));
+    const uint slopes = PAPER ? 0u : tiles[number].film & VIRGA_GLASS_HAS_SLOPES;
     const bool shown = found >> SHOWN_BIT != 0u;
+    const uint seen = (shown ? VIRGA_GLASS_SHOWN : 0u) | (found & 0xffffu) << VIRGA_GLASS_SPANS_BIT;
+    if (!PAPER && gl_LocalInvocationIndex < 5u)
+        list_around(tile, gl_LocalInvocationIndex, shown || slopes != 0u);
     if (gl_LocalInvocationIndex != 0u)
         return;
-    written[tile_index] = relief | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
-    const uint before = atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u) |
-                                                         (found & 0xffffu) << VIRGA_GLASS_SPANS_BIT);
-    if (shown || relief != 0u)
-        list_tile(uvec2(tile), before);
+    atomicOr(tiles[number].film, seen);
+    written[uint(tile.x) + uint(tile.y) * look.written_columns] =
+        virga_glass_written_gpu(seen | (slopes != 0u ? VIRGA_GLASS_HOLDS_RELIEF : 0u) |
+                                    (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u),
+                                tiles[number].content);
 }

@@ -1,6 +1,6 @@
 // relief.glsl - the relief map, which the draws read: slopes of the height map, from differences between neighbours,
 // and curvature. It covers tiles that have something to draw, and those that had something when a view was drawn
-// before.
+// before: of both, those where the height map has changed in them or beside them.
 //
 // LANES is the workgroup's size; each invocation has 64 / LANES texels in a column. With 8, which must be one subgroup,
 // an invocation has a whole column: it gets the texels above and below from its own fetches, and those beside from the
@@ -12,7 +12,7 @@ layout(local_size_x = TILE, local_size_y = LANES / TILE) in;
 layout(constant_id = 0) const uint MODE = 0u; // 1: the pane has a mask
 #define MASKED (MODE != 0u)
 #include "mask.glsl"
-layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; };
+layout(scalar, set = 0, binding = 17) buffer Written { virga_glass_written_gpu written[]; };
 layout(set = 0, binding = 20, rgba32f) uniform writeonly image2D relief_out;
 layout(set = 0, binding = 23) uniform sampler2D map; // software Vulkan fetches faster than it loads
 
@@ -100,5 +100,6 @@ void relief()
     write_tile(tile * TILE, shown);
     const uint tile_index = uint(tile.x) + uint(tile.y) * look.written_columns;
     if (gl_LocalInvocationIndex == 0u && index < work.relief_tiles)
-        written[tile_index] = (written[tile_index] & VIRGA_GLASS_HOLDS_WATER) | (shown ? VIRGA_GLASS_HOLDS_RELIEF : 0u);
+        written[tile_index].holds =
+            (written[tile_index].holds & ~VIRGA_GLASS_HOLDS_RELIEF) | (shown ? VIRGA_GLASS_HOLDS_RELIEF : 0u);
 }

@@ -10,6 +10,35 @@ layout(scalar, set = 0, binding = 18) buffer Work
 
 #define TILE VIRGA_GLASS_TILE
 
+// ---- what a tile shows
+//
+// Most water on a pane stands still from one picture to the next. So each tile knows what its texels were made of: the
+// sum of a hash of each ball and of each cell of film on it, and of what all tiles have in common. A sum does not
+// depend on the order. Where it is that of the newest view, the tile's texels are those of that view to the bit, and
+// nothing writes them. Two hashes have 64 bits together: with a million changes a second, one in 600,000 years would be
+// taken for none.
+
+// Absorbs a word in both hashes.
+uvec2 absorb(uvec2 hashes, uint word)
+{
+    return uvec2(virga_hash_absorb(hashes.x, word), virga_hash_absorb(hashes.y, word));
+}
+
+uvec2 absorb(uvec2 hashes, float number) { return absorb(hashes, floatBitsToUint(number)); }
+
+#define BALL_HASH uvec2(0x243f6a88u, 0x85a308d3u) // pi: first words of hashes; one pair for balls, one for cells
+#define CELL_HASH uvec2(0x13198a2eu, 0x03707344u)
+
+// Heights are divided by this, about the radius of the view's widest ball. It is rounded up to two digits, of which
+// the second is a quarter: else it would change with every drop that runs.
+float widest_m() { return uintBitsToFloat((work.highest + 0x1fffffu) & ~0x1fffffu); }
+
+// Both hashes of what all tiles have in common. `fits`: the tile's balls are in its list.
+uvec2 common_hash(bool fits)
+{
+    return absorb(absorb(uvec2(look.map_seed, ~look.map_seed), widest_m()), fits ? 1u : 0u);
+}
+
 vec2 tile_m() { return texel_m() * float(TILE); }
 
 // The first and the last tile within `reach_m` of a point along u and along v. There are none if the last is before the
