@@ -95,12 +95,17 @@ vec3 environment_brdf(vec3 f0, float roughness, float n_v)
     return f0 * ab.x + ab.y;
 }
 
-// GGX with the height-correlated visibility of Smith, as approximated by Hammon 2017; Schlick's Fresnel.
-vec3 specular_lobe(vec3 f0, float roughness, float n_l, float n_v, vec3 n, vec3 v, vec3 l)
+// GGX with the height-correlated visibility of Smith, as approximated by Hammon 2017; Schlick's Fresnel. `within2` is
+// added to the square of its alpha.
+vec3 specular_lobe(vec3 f0, float roughness, float within2, float n_l, float n_v, vec3 n, vec3 v, vec3 l)
 {
     vec3 h = normalize(v + l);
     float n_h = clamp(dot(n, h), 0.0, 1.0), v_h = clamp(dot(v, h), 0.0, 1.0);
-    float a = max(roughness * roughness, 0.002), a2 = a * a;
+    float a = max(roughness * roughness, 0.002);
+#ifdef MIRROR
+    a = min(sqrt(a * a + within2), 1.0);
+#endif
+    float a2 = a * a;
     float d = (n_h * a2 - n_h) * n_h + 1.0;
     float distribution = a2 / (PI * d * d);
     float visibility = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, a);
@@ -170,9 +175,25 @@ struct Lobe {
 };
 
 // What a surface, without its albedo, reflects of light from l on it.
-vec3 lobe_of(Lobe lobe, float n_l, vec3 v, vec3 l)
+vec3 lobe_of(Lobe lobe, float within2, float n_l, vec3 v, vec3 l)
 {
-    return specular_lobe(lobe.f0, lobe.roughness, n_l, lobe.n_v, lobe.n, v, l);
+    return specular_lobe(lobe.f0, lobe.roughness, within2, n_l, lobe.n_v, lobe.n, v, l);
+}
+
+// How much the half vector turns against the normal within a texel of the mirror's picture, as what it adds to alpha^2.
+// A lamp in a pane is narrower than the texels: of the pictures that are averaged one would hit it with all its light,
+// and water makes a pillar of that, which flashes. With the texel as a normal distribution whose deviation is half of
+// its side (as in water.glsl) the slope's variance along an axis is a quarter of the square that it differs by from
+// texel to texel, and alpha^2 is twice the variance. Sampled at each texel, such a distribution adds up to the same
+// within 2 exp(-2 pi^2 / 4) = 1.4 %, wherever the texels lie.
+float within_texel(vec3 n, vec3 v, vec3 l)
+{
+#ifdef MIRROR
+    const vec3 turned = normalize(v + l) - n, right = dFdx(turned), down = dFdy(turned);
+    return 0.5 * (dot(right, right) + dot(down, down));
+#else
+    return 0.0;
+#endif
 }
 
 // Light of lamps that comes back from a surface, or through it, and from the water over it, whose shadows are the same.
@@ -189,17 +210,17 @@ vec3 lit(vec3 albedo, vec3 through, Lobe ground, Lobe water, vec3 v, out vec3 on
         lamps &= lamps - 1;
         const vec3 to = frame.lights[i].position.xyz - in_relative;
         const vec3 l = to * inversesqrt(max(dot(to, to), 1e-4));
-        const float n_l = max(dot(ground.n, l), 0.0);
+        const float n_l = max(dot(ground.n, l), 0.0), within2 = within_texel(ground.n, v, l);
         vec3 light = lamp_light(i, to);
 #ifdef WET
         const float water_l = max(dot(water.n, l), 0.0), most = max(max(light.r, light.g), light.b);
         const bool looked = near_things > 0.0 && max(n_l, water_l) * most > CONTACT_LEAST;
         light *= mix(1.0, lamp_left(l, looked), near_things);
         if (water_l > 0.0)
-            on_water += light * lobe_of(water, water_l, v, l) * water_l;
+            on_water += light * lobe_of(water, 0.0, water_l, v, l) * water_l;
 #endif
         if (n_l > 0.0)
-            sum += light * (albedo / PI + lobe_of(ground, n_l, v, l)) * n_l;
+            sum += light * (albedo / PI + lobe_of(ground, within2, n_l, v, l)) * n_l;
 #ifdef THIN
         sum += light * through * (max(-dot(ground.n, l), 0.0) / PI);
 #endif
