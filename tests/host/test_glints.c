@@ -1,5 +1,6 @@
-/* test_glints.c - a lamp that a pane reflects, seen in water, at night: its highlight in the mirror's picture is
- * narrower than the texels, and yet as bright wherever the lamp is, as geometry has it. */
+/* test_glints.c - lamps and water at night. A lamp that a pane reflects, seen in water: its highlight in the mirror's
+ * picture is narrower than the texels, and yet as bright wherever the lamp is, as geometry has it. And what a lamp
+ * lights below water. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,6 +17,9 @@ enum { WIDTH = 128, HEIGHT = 96, CELLS = 64, MAPS = 3, PLACES = 8 };
 #define FOV_DEG 60.0
 #define GLOSS   0.05 /* roughness of the pane */
 #define SHINES  200.0
+#define INDEX   1.333 /* of water */
+
+static const double albedo[3] = {0.6, 0.4, 0.1}; /* of the ground, which has no pores */
 
 /* The camera, where the pane shows the lamp, which lies in z = 0, and how far the lamp is before it. */
 static const double eye_m[3] = {0, 1.5, 7}, glint_m[3] = {2.1, 1.0, 0}, lamp_away_m = 3;
@@ -37,8 +41,10 @@ static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const
 {
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     host_vertex v[4] = {{.uv = {0}}};
-    const host_material material = {
+    host_material material = {
         .base_color = {0, 0, 0, 1}, .roughness = roughness, .base_texture = -1, .emissive_texture = -1};
+    for (int i = 0; i < 3 && mesh == &s->ground; i++)
+        material.base_color[i] = (float)albedo[i];
     for (int i = 0; i < 4; i++) {
         memcpy(v[i].position, corners[i], sizeof v[i].position);
         memcpy(v[i].normal, normal, sizeof v[i].normal);
@@ -84,7 +90,7 @@ static bool build(void *zeroed)
     const host_environment_def night = {.intensity = 1};
     const bool made = host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
                       host_renderer_create(device, &s->renderer, error, size) &&
-                      add_quad(s, &s->ground, level, up, 1) && add_quad(s, &s->pane, upright, out, (float)GLOSS) &&
+                      add_quad(s, &s->ground, level, up, 0.5f) && add_quad(s, &s->pane, upright, out, (float)GLOSS) &&
                       host_environment_create(device, &night, &s->dark, error, size) &&
                       host_renderer_set_environment(s->renderer, &s->dark, error, size) &&
                       host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
@@ -154,9 +160,9 @@ static void half_vector(const virga_light *lamp, double x, double y, double h[2]
 }
 
 /* What a narrow highlight adds up to over the pixels. Its distribution of half vectors has the integral 1 over x and y
- * of these, so over pixels it has 1 / J, with J the area that half vectors cover in a pixel. Light of the lamp (I / d^2)
- * comes back from the pane as I / d^2 F V cos D with V cos = 1 / (4 cos) where it is reflected, and from the water as
- * much of it as Fresnel says. */
+ * of these, so over pixels it has 1 / J, with J the area that half vectors cover in a pixel. Of a lamp's light, which
+ * is I / d^2, the pane reflects F V cos D, with V cos = 1 / (4 cos) where it is a mirror, and the water as much of that
+ * as Fresnel says. */
 static double expected_sum(const virga_light *lamp)
 {
     const double focal_px = HEIGHT / 2.0 / tan(FOV_DEG * PI / 360), small = 0.01;
@@ -189,27 +195,77 @@ static double drawn_sum(const scene *s)
 }
 
 /* The lamp moves by a texel and a half in steps of a fifth of one. Of a highlight that is not made as wide as the
- * texels these see nearly nothing, or tens of times as much. A twentieth is in the tails of the lobe, outside of what is
- * added up. */
-static void a_highlight_in_the_mirror_does_not_flash(void **state)
+ * texels these see nearly nothing, or tens of times as much. A twentieth is in the tails of the lobe, outside of what
+ * is added up. */
+static void draw(scene *s, const virga_light *lamp)
 {
-    scene *s = *state;
     const host_camera_key key = {.position_m = {eye_m[0], eye_m[1], eye_m[2]}, .look_at_m = {0, 1.5, 0}};
     const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.1, .far_m = 100};
     host_camera camera;
     host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &camera);
+    host_renderer_set_lights(s->renderer, lamp, 1);
+    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+}
+
+static void a_highlight_in_the_mirror_does_not_flash(void **state)
+{
+    scene *s = *state;
     for (int i = 0; i < PLACES; i++) {
         const virga_light lamp = place_lamp(0.06 * i);
-        host_renderer_set_lights(s->renderer, &lamp, 1);
-        assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+        draw(s, &lamp);
         const double sum = drawn_sum(s), expected = expected_sum(&lamp);
         printf("lamp %.2f m aside: %.4f, expected %.4f, ratio %.3f\n", 0.06 * i, sum, expected, sum / expected);
         assert_true(sum > 0.9 * expected && sum < 1.02 * expected);
     }
 }
 
+/* ---- below water ---------------------------------------------------------------------------------------------- */
+
+/* Fresnel's share of light that water reflects, from the air with that cosine to the normal. */
+static double reflected(double cosine)
+{
+    const double below = sqrt(1 - (1 - cosine * cosine) / (INDEX * INDEX));
+    const double across = (cosine - INDEX * below) / (cosine + INDEX * below);
+    const double along = (INDEX * cosine - below) / (INDEX * cosine + below);
+    return 0.5 * (across * across + along * along);
+}
+
+/* Ground that has no pores, lit from above through 5 mm of water: of even light a part enters; what comes up again is
+ * thrown back but for the same part, over n^2; and the rest is seen through the surface. To 3 %: Fresnel's share is
+ * Schlick's approximation there. */
+static void ground_without_pores_is_darker_under_water(void **state)
+{
+    enum { STEPS = 10000, ROW = 79 };
+    scene *s = *state;
+    const virga_light lamp = {.position_m = {0, 2, 3},
+                              .intensity = {(float)SHINES, (float)SHINES, (float)SHINES},
+                              .direction = {0, -1, 0},
+                              .cos_inner = 0.95f,
+                              .cos_outer = 0.9f};
+    const double focal_px = HEIGHT / 2.0 / tan(FOV_DEG * PI / 360), down = (ROW + 0.5 - HEIGHT / 2.0) / focal_px;
+    const double z_m = eye_m[2] - eye_m[1] / down - lamp.position_m[2], away2 = 4 + z_m * z_m;
+    const double cosine = down / sqrt(1 + down * down), light = SHINES / away2 * 2 / sqrt(away2);
+    double enters = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double c = (i + 0.5) / STEPS;
+        enters += 2 * c * (1 - reflected(c)) / STEPS;
+    }
+    draw(s, &lamp);
+    for (int i = 0; i < 3; i++) {
+        const double kept = 1 - enters / (INDEX * INDEX);
+        const double expected =
+            light * enters * albedo[i] / (1 - kept * albedo[i]) * (1 - reflected(cosine)) / (INDEX * INDEX * PI);
+        const double seen = (double)s->picture.color[4 * (ROW * WIDTH + WIDTH / 2) + i];
+        printf("albedo %.1f: %.4f, expected %.4f\n", albedo[i], seen, expected);
+        assert_float_equal(seen / expected, 1, 0.03);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_highlight_in_the_mirror_does_not_flash)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_highlight_in_the_mirror_does_not_flash),
+        cmocka_unit_test(ground_without_pores_is_darker_under_water),
+    };
     return fixture_result(cmocka_run_group_tests_name("glints", tests, set_up, tear_down));
 }
