@@ -23,7 +23,7 @@ MATERIALS = [
     {"name": "asphalt", "image": "asphalt", "rough": 0.88},
     {"name": "asphalt_patch", "image": "asphalt", "colour": (0.52, 0.53, 0.56), "rough": 0.82},
     {"name": "asphalt_tar", "colour": (0.012, 0.012, 0.013), "rough": 0.45},
-    {"name": "asphalt_paint", "image": "plaster", "colour": (0.62, 0.62, 0.60), "rough": 0.6},
+    {"name": "asphalt_paint", "image": "paint", "colour": (0.62, 0.62, 0.60), "rough": 0.6},
     {"name": "cobble_stone", "image": "setts", "joints": "setts_joints", "rough": 0.7},
     {"name": "kerb_stone", "image": "metal", "colour": (0.36, 0.36, 0.35), "rough": 0.75},
     {"name": "concrete_slabs", "image": "slabs", "joints": "slabs_joints", "rough": 0.85},
@@ -75,7 +75,7 @@ MATERIALS = [
 
 # Metres of one repeat, by image.
 TILE_M = {"asphalt": 4.0, "brick": 1.8, "slabs": 2.4, "setts": 0.96, "ashlar": 2.4, "plaster": 4.0, "roof_tiles": 1.6,
-          "wood": 1.0, "metal": 0.5, "stripes": 1.2, "foliage": 0.5, "earth": 1.0}
+          "wood": 1.0, "metal": 0.5, "stripes": 1.2, "foliage": 0.5, "earth": 1.0, "paint": 0.8}
 TILES = {m["name"]: TILE_M.get(m.get("image"), 1.0) for m in MATERIALS}
 
 # (x, z, depth m, radius m) of shallow hollows in the road: where puddles will stand.
@@ -163,9 +163,27 @@ def overlay(group, material, corners, lift):
     sheet(group, material, xs, zs, lambda x, z: road_surface(x, z) + lift)
 
 
+def paint(group, corners, rng):
+    """A stripe of paint 3 mm thick, some years old: along its edges it is ragged, and pieces have come off."""
+    (x0, z0), (x1, z1) = corners
+    count, bites = round((z0 - z1) / 0.055), [0.0, 0.0]
+    zs = {z0 + (z1 - z0) * k / count for k in range(count + 1)} | {z for z in ROAD_ZS if z1 < z < z0}
+    zs = sorted(zs, reverse=True)
+    inner = [x for x in ROAD_XS if x0 + 0.03 < x < x1 - 0.03] or [x0 + (x1 - x0) * k / 3 for k in (1, 2)]
+    ends = [[rng.gauss(0.0, 0.004) for _ in range(len(inner) + 2)] for _ in range(2)]
+    rows = []
+    for k, z in enumerate(zs):
+        for side in range(2):
+            bites[side] = rng.uniform(0.006, 0.022) if rng.random() < 0.07 else 0.4 * bites[side]
+        xs = [x0 + bites[0] + rng.gauss(0.0, 0.0018)] + inner + [x1 - bites[1] + rng.gauss(0.0, 0.0018)]
+        off = ends[0] if k == 0 else ends[1] if k == len(zs) - 1 else [0.0] * len(xs)
+        rows.append([(x, road_surface(x, z + d) + 0.003, z + d) for x, d in zip(xs, off)])
+    group.surface("asphalt_paint", rows, planar=True)
+
+
 def make_markings(scene):
     """Repaired trenches with tar-sealed joints, a zebra crossing and a worn centre line."""
-    g = Group("marking", TILES)
+    g, rng = Group("marking", TILES), random.Random(23)
     for x0, z0, x1, z1 in ((-2.9, 5.2, -1.7, -9.0), (0.2, -9.4, 3.05, -10.9), (0.4, 4.4, 2.4, 2.9),
                            (1.2, -20, 2.6, -33)):
         overlay(g, "asphalt_patch", ((x0, z0), (x1, z1)), 0.001)
@@ -175,9 +193,9 @@ def make_markings(scene):
             overlay(g, "asphalt_tar", ((x0, z + 0.022), (x1, z - 0.022)), 0.002)
     for k in range(6):
         x = -2.75 + k * 1.0
-        overlay(g, "asphalt_paint", ((x, -11.6), (x + 0.5, -14.6)), 0.003)
+        paint(g, ((x, -11.6), (x + 0.5, -14.6)), rng)
     for z in (16.0, 11.5, 7.0, 2.5, -2.0, -6.5, -19.0, -23.5, -28.0, -32.5, -37.0):
-        overlay(g, "asphalt_paint", ((-0.06, z), (0.06, z - 2.0)), 0.003)
+        paint(g, ((-0.06, z), (0.06, z - 2.0)), rng)
     scene.place(g)
 
 

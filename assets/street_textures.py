@@ -225,6 +225,20 @@ def plaster(size=256):
     return png(size, size, pixels, 24)
 
 
+def paint(size=256):
+    """0.8 m of road paint, to be tinted: dirt of wheels, stones that wear through, places where it has come off."""
+    rng = random.Random(61)
+    broad, fine, thin = noise(size, 3, 62, 4, 0.6), noise(size, 64, 63, 2, 0.7), noise(size, 10, 64, 4, 0.62)
+    pixels = []
+    for b, f, t in zip(broad, fine, thin):
+        v = 205 * (0.80 + 0.24 * b + 0.16 * (f - 0.5)) + rng.gauss(0.0, 4.0)
+        worn = 3.0 * (t - 0.5) + 1.2 * (f - 0.5)
+        if worn > 0.42:
+            v -= (v - 74) * min(1.0, 4.0 * (worn - 0.42))
+        pixels.append((v, v * 0.985, v * 0.96))
+    return png(size, size, pixels, 16)
+
+
 def roof_tiles(size=256):
     """1.6 m of clay pantiles, 8 columns of 6 rows: round rolls, a shadow under each lap."""
     rng = random.Random(61)
@@ -354,4 +368,5 @@ def all_images():
             "setts_joints": joints(256, 0.96, 8, 8, 3.0, 42, 0.5, 0.09),
             "asphalt": asphalt(), "brick": brick(), "slabs": slabs(), "setts": setts(), "ashlar": ashlar(),
             "plaster": plaster(), "roof_tiles": roof_tiles(), "wood": wood(), "metal": metal(), "stripes": stripes(),
-            "foliage": foliage(), "earth": earth(), "interiors": interiors(), "shop_window": shop_window()}
+            "foliage": foliage(), "earth": earth(), "paint": paint(), "interiors": interiors(),
+            "shop_window": shop_window()}
