@@ -15,6 +15,9 @@
 
 #include "plate_fixture.h"
 
+#include "branched_any_comp.spv.h"
+#include "branched_constant_comp.spv.h"
+#include "branched_known_comp.spv.h"
 #include "counted_comp.spv.h"
 #include "divided_10_comp.spv.h"
 #include "divided_8_comp.spv.h"
@@ -308,6 +311,26 @@ static void a_quotient_by_a_constant_is_no_division(void **state)
     assert_true(divisions >= shifts + 44); /* and the place of what it is divided by */
 }
 
+static float branches(const uint32_t *code, size_t bytes)
+{
+    block_costs costs;
+    float sum = 0;
+    assert_true(block_costs_read(code, bytes / 4, &costs));
+    for (uint32_t i = 0; i < costs.block_count; i++)
+        sum += costs.blocks[i].branch;
+    block_costs_free(&costs);
+    return sum;
+}
+
+/* A driver knows a pipeline's constants when it compiles, and keeps one side. */
+static void a_branch_on_what_is_known_costs_nothing(void **state)
+{
+    (void)state;
+    assert_float_equal(branches(branched_any_comp_spv, sizeof branched_any_comp_spv), 1, 0);
+    assert_float_equal(branches(branched_constant_comp_spv, sizeof branched_constant_comp_spv), 0, 0);
+    assert_float_equal(branches(branched_known_comp_spv, sizeof branched_known_comp_spv), 0, 0);
+}
+
 static void a_card_is_found_by_its_name(void **state)
 {
     (void)state;
@@ -346,6 +369,7 @@ int main(void)
         cmocka_unit_test(what_this_device_takes_is_found_by_kernels),
         cmocka_unit_test(a_product_and_a_sum_are_one_operation_unless_they_are_precise),
         cmocka_unit_test(a_quotient_by_a_constant_is_no_division),
+        cmocka_unit_test(a_branch_on_what_is_known_costs_nothing),
         cmocka_unit_test(a_card_is_found_by_its_name),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

@@ -19,10 +19,11 @@ typedef struct id_facts {
     uint32_t resource;     /* pointers and images: 1 + index */
     uint32_t block;        /* labels: 1 + index */
     bool own;              /* differs between the lanes of a wave */
-    bool constant;
-    bool used;                    /* atomics: an instruction takes the result */
-    bool loaded;                  /* pointers: a load of what is the same for all lanes was counted */
-    bool exact;                   /* a product or sum that may not be fused with another */
+    bool constant;         /* with a value that is known here */
+    bool known;  /* to the driver when it compiles: constants, those of pipelines, and what follows from them */
+    bool used;   /* atomics: an instruction takes the result */
+    bool loaded; /* pointers: a load of what is the same for all lanes was counted */
+    bool exact;  /* a product or sum that may not be fused with another */
     const block_cost *product_of; /* a product that can be fused: the block that it is in */
 } id_facts;
 
@@ -339,6 +340,18 @@ static bool any_own(const reader *r, const uint32_t *at, uint32_t length, uint32
     return false;
 }
 
+/* Whether an instruction computes with what is known alone. */
+static bool all_known(const reader *r, const uint32_t *at, uint32_t length, uint32_t op)
+{
+    const bool computes = (op >= OP_CONVERT_FIRST && op <= OP_ARITHMETIC_LAST) ||
+                          (op >= OP_LOGICAL_FIRST && op <= OP_LOGICAL_LAST) ||
+                          (op >= OP_BIT_FIRST && op <= OP_BIT_LAST);
+    for (uint32_t i = 3; computes && i < length; i++)
+        if (!r->ids[at[i]].known)
+            return false;
+    return computes;
+}
+
 static void read_result(reader *r, const uint32_t *at, uint32_t length, uint32_t op)
 {
     id_facts *result = &r->ids[at[2]];
@@ -355,6 +368,7 @@ static void read_result(reader *r, const uint32_t *at, uint32_t length, uint32_t
         own = op >= OP_SUBGROUP_REDUCE && length > 5 ? at[4] != 0 : own; /* a reduction is the same in all lanes */
     }
     result->own = result->own || own;
+    result->known = all_known(r, at, length, op);
 }
 
 /* True for instructions in functions with a type and a result. */
@@ -393,7 +407,7 @@ static void read_cost(reader *r, const uint32_t *at, uint32_t length, uint32_t o
     else if (op == OP_VECTOR_EXTRACT_DYNAMIC)
         b->full += 4;
     else if (op == OP_BRANCH_CONDITIONAL || op == OP_SWITCH)
-        b->branch += 1;
+        b->branch += r->ids[at[1]].known ? 0 : 1; /* compilers leave out the side that is not taken */
     else if (op == OP_CONTROL_BARRIER)
         b->barrier += 1;
 }
@@ -462,6 +476,7 @@ static void read_global(reader *r, const uint32_t *at, uint32_t length)
         constant->of = at[1];
         constant->value = length > 3 ? at[3] : 0;
         constant->constant = op != OP_SPEC_CONSTANT_OP;
+        constant->known = true;
         if (op == OP_CONSTANT_COMPOSITE) /* its components are nearly always alike */
             constant->value = r->ids[at[3]].value;
     }
