@@ -61,10 +61,16 @@ float cell_calm_time(float water_m) { return calm_time(VIRGA_RING_DROP_WIDTHS - 
 
 // Variance of slope from a drop's waves on a cell: the square of the crater's slope over its area, 4 pi (3 / 8) of its
 // depth squared for any width (see ring_table.h: slope^2 = (2 r / a^2 (2 - x))^2 exp(-2 x), x = r^2 / a^2), over the
-// cell's area. Waves leave the cell as much as they come from the cells around. Less for waves that calm sooner than
-// the cell does, so that the mean over time is right.
-float crater_variance(Crater crater, float water_m)
+// cell's area. Waves leave the cell as much as they come from the cells around. This is it times the time for which the
+// cell keeps it: one such drop a second maintains so much.
+float crater_kept_s(Crater crater, float water_m)
 {
     return 4.71239 * crater.depth_m * crater.depth_m * tick.inv_cell_m * tick.inv_cell_m *
-           calm_time(crater.width, water_m) / cell_calm_time(water_m);
+           calm_time(crater.width, water_m);
+}
+
+// Less for waves that calm sooner than the cell does, so that the mean over time is right.
+float crater_variance(Crater crater, float water_m)
+{
+    return crater_kept_s(crater, water_m) / cell_calm_time(water_m);
 }

@@ -17,14 +17,25 @@ virga_standing_gpu standing_at(uint material, float open_share, float level_shar
 }
 
 // Earlier rain stands in the hollows; humps have only what their roughness holds.
-virga_cell_gpu water_standing(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
+uint free_standing_nl(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
 {
     const float hump_um = max(bump_um + 0.5 * soil.bumps_um, 0.0);
     const float depth_um = max(standing.level_um - hump_um, 0.0);
     const uint free_nl = max(uint(depth_um * float(tick.nl_per_um)), uint(standing.film_nl));
-    virga_cell_gpu cell = virga_cell_gpu(soil.drain != 0u ? 0u : free_nl, soil.capacity_nl);
+    return soil.drain != 0u ? 0u : free_nl;
+}
+
+// In the pores where no water is free. Under free water they are full.
+uint held_standing_nl(virga_standing_gpu standing, virga_soil_gpu soil)
+{
+    return min(uint(float(soil.capacity_nl) * standing.held), soil.capacity_nl);
+}
+
+virga_cell_gpu water_standing(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
+{
+    virga_cell_gpu cell = virga_cell_gpu(free_standing_nl(standing, soil, bump_um), soil.capacity_nl);
     if (cell.free_nl == 0u)
-        cell.held_nl = min(uint(float(soil.capacity_nl) * standing.held), soil.capacity_nl);
+        cell.held_nl = held_standing_nl(standing, soil);
     return cell;
 }
 
