@@ -17,6 +17,7 @@
 #include "gpu/variants.glsl"
 
 layout(local_size_x = VIRGA_GROUND_IMPACTS_EACH, local_size_x_id = 5) in; // constant 5: see gpu/pipeline_build.c
+#define LANES_EACH 4u // of an impact, on a GPU. Most impacts have fewer pieces, and each lane reads the impact.
 layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
@@ -33,20 +34,21 @@ void leave_spot(Piece piece, float diameter_m, uint hash)
     const ivec2 low = (piece.cell & int(tick.tiles * VIRGA_GROUND_TILE - 1u)) * VIRGA_GROUND_SPOTS;
     float least = 1e9;
     uvec2 best = uvec2(0u), bits = uvec2(0u);
-    for (int i = 0; i < 9; i++) {
-        const ivec2 bit = own + ivec2(i % 3, i / 3) - 1;
-        const uint index = uint(bit.y * VIRGA_GROUND_SPOTS + bit.x), mask = 1u << (index & 31u);
-        const uvec2 one = index < 32u ? uvec2(mask, 0u) : uvec2(0u, mask);
-        const vec4 chance = virga_ground_spot_chance(low + bit);
-        const vec2 apart = vec2(bit) + virga_ground_spot_middle(chance) - at;
-        const float larger = virga_ground_spot_radius(chance) - radius;
-        const float misfit = dot(apart, apart) + larger * larger;
-        const bool inside = min(bit.x, bit.y) >= 0 && max(bit.x, bit.y) < VIRGA_GROUND_SPOTS;
-        const bool better = inside && misfit < least;
-        least = better ? misfit : least;
-        best = better ? one : best;
-        bits |= inside && dot(apart, apart) < within * within ? one : uvec2(0u);
-    }
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++) {
+            const ivec2 bit = own + ivec2(x, y);
+            const uint index = uint(bit.y * VIRGA_GROUND_SPOTS + bit.x), mask = 1u << (index & 31u);
+            const uvec2 one = index < 32u ? uvec2(mask, 0u) : uvec2(0u, mask);
+            const vec4 chance = virga_ground_spot_chance(low + bit);
+            const vec2 apart = vec2(bit) + virga_ground_spot_middle(chance) - at;
+            const float larger = virga_ground_spot_radius(chance) - radius;
+            const float misfit = dot(apart, apart) + larger * larger;
+            const bool inside = min(bit.x, bit.y) >= 0 && max(bit.x, bit.y) < VIRGA_GROUND_SPOTS;
+            const bool better = inside && misfit < least;
+            least = better ? misfit : least;
+            best = better ? one : best;
+            bits |= inside && dot(apart, apart) < within * within ? one : uvec2(0u);
+        }
     if (virga_unit(hash) < 3.14159265 * radius * radius)
         bits |= best;
     if (bits.x != 0u)
@@ -182,9 +184,9 @@ void count_water_of(Water sums)
 
 void main()
 {
-    const uint lanes = FOR_GPU ? gl_WorkGroupSize.x / uint(VIRGA_GROUND_IMPACTS_EACH) : 1u; // of each impact
-    const uint index = gl_GlobalInvocationID.x / lanes;
-    if (!is_of_tick(index))
+    const uint lanes = FOR_GPU ? LANES_EACH : 1u, local = gl_LocalInvocationIndex / lanes;
+    const uint index = gl_WorkGroupID.x * uint(VIRGA_GROUND_IMPACTS_EACH) + local;
+    if (local >= uint(VIRGA_GROUND_IMPACTS_EACH) || !is_of_tick(index))
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact), landing = landing_index(index);
@@ -193,7 +195,7 @@ void main()
     const Piece first = first_piece(impact);
     const virga_ground_count_gpu none = virga_ground_count_gpu(0u, 0u);
     Water sums = Water(none, none, none, none, none, none);
-    for (uint i = gl_GlobalInvocationID.x % lanes; i < n; i += lanes)
+    for (uint i = gl_LocalInvocationIndex % lanes; i < n; i += lanes)
         land_piece(index, impact, first, i, n, spawn_index, splashing, sums);
     count_water_of(sums);
 }
