@@ -1,12 +1,14 @@
 // height_film.glsl - what film adds to a tile of the height map: the sheet on its cells, beads with a shape (added as
 // balls like those of drops), and the mist map. Include it after the buffers, texels and add() of height.glsl.
 
-// Thickness of the sheet on a cell. Without a branch: inside a branch software Vulkan reads lane by lane.
+// Thickness of the sheet on a cell. There without a branch: inside one software Vulkan reads lane by lane.
 float sheet_m(ivec2 cell)
 {
     const ivec2 last = ivec2(look.pane.columns, look.pane.rows) - 1, clamped = clamp(cell, ivec2(0), last);
     const uint number = uint(clamped.x) + uint(clamped.y) * look.pane.columns;
     const uint water = film[number], wetted = passed[number];
+    if (FOR_GPU && water == 0u)
+        return 0.0;
     const float nl = float(water) * film_fresh(water, wetted) * (WITH_BEADS ? 1.0 - thread_share(water, wetted) : 1.0);
     return cell == clamped ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
