@@ -16,15 +16,17 @@
 layout(constant_id = 0) const uint MODE = 0u;
 #define SEVERAL ((MODE & 1u) != 0u) // several cells per texel; even a loop that runs once has a cost
 #define MASKED ((MODE & 2u) != 0u)  // there may be cells without glass
-layout(local_size_x = VIRGA_GLASS_MIST_BLOCK / PACKED, local_size_y = VIRGA_GLASS_MIST_BLOCK) in;
+// In a row: of a workgroup that is four wide software Vulkan runs four lanes at a time, and not eight.
+#define COLUMNS (uint(VIRGA_GLASS_MIST_BLOCK) / PACKED)
+layout(local_size_x = VIRGA_GLASS_MIST_BLOCK * VIRGA_GLASS_MIST_BLOCK / PACKED) in;
 layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
 layout(scalar, set = 0, binding = 9) writeonly buffer Mist { uint mist[]; }; // four texels in a word
 layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 
 shared uint any_mist, any_shape;
 
-// Mist of a cell, and whether it has film with a shape. Without branches: inside one, software Vulkan reads lane by
-// lane.
+// Mist of a cell, and whether it has film with a shape. Without branches there: inside one, software Vulkan reads
+// lane by lane.
 float cell_mist(uvec2 cell, out bool has_shape)
 {
     const bool inside = cell.x < look.pane.columns && cell.y < look.pane.rows;
@@ -33,6 +35,10 @@ float cell_mist(uvec2 cell, out bool has_shape)
     bool has_water = inside && water != 0u;
     if (MASKED)
         has_water = has_water && (surface[number] & 0x1000000u) != 0u;
+    if (FOR_GPU && !has_water) {
+        has_shape = false;
+        return 0.0;
+    }
     const float nl = float(water), fresh = film_fresh(water, wetted_tick);
     const vec2 radii = bead_radii(number, nl, film_link(wetted_tick), nl * (1.0 - fresh)), shapes = bead_shapes(radii);
     const float covered = dot(radii * radii, 1.0 - shapes) * 3.14159265 / (look.pane.cell_m * look.pane.cell_m);
@@ -88,7 +94,8 @@ void main()
     barrier();
     const uint number = work_list[3u * look.max_tiles + look.max_blocks + gl_WorkGroupID.x];
     const uvec2 block = uvec2(number & 0xffffu, number >> 16);
-    const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK + gl_LocalInvocationID.xy * uvec2(PACKED, 1u);
+    const uvec2 own = uvec2(gl_LocalInvocationIndex % COLUMNS, gl_LocalInvocationIndex / COLUMNS);
+    const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK + own * uvec2(PACKED, 1u);
     bool has_shape;
     const uint word = SEVERAL ? mist_of_texels(first, has_shape) : mist_of_cells(first, has_shape);
     mist[(first.x + first.y * look.mist_pitch) / PACKED] = word;
