@@ -412,6 +412,34 @@ static void fine_film_covers_what_its_beads_do(void **state)
     shot_close(&s);
 }
 
+/* One cell in five has such film, and is seen as such. A cell has 4 x 4 texels; of the inner ones each is 1/8 of a cell
+ * off the middle along both sides, so 49/64 of what it shows is its own cell's. */
+static void fine_film_is_seen_on_its_own_cells(void **state)
+{
+    (void)state;
+    shot s;
+    uint32_t seen[2] = {0};
+    open_small(&s);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++)
+        s.film[i] = virga_hash1(i) % 5 ? 0 : 20;
+    shot_draw(&s, false);
+    const double cap = glass_cap_volume(glass_seen_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
+    const double one = M_PI * pow(20e-12 / cap, 2.0 / 3) / (cell * cell), most = cbrt(2) * one + 1.0 / 255;
+    assert_int_equal(s.columns, 4 * s.glass->columns);
+    for (uint32_t i = 0; i < s.columns * s.rows; i++) {
+        const uint32_t column = i % s.columns, row = i / s.columns, at = column / 4 + row / 4 * s.glass->columns;
+        const double share = (double)s.map[4 * i + 2], low = 49.0 / 64 * (one - 1.0 / 255), high = 15.0 / 64 * most;
+        if ((column + 1) / 2 % 2 == 0 || (row + 1) / 2 % 2 == 0)
+            continue;
+        seen[s.film[at] > 0]++;
+        if (s.film[at] ? share < low || share > most : share > high)
+            fail_msg("%g of texel %u is covered, film: %u", share, i, s.film[at]);
+        REQUIRE(high < low);
+    }
+    REQUIRE(seen[0] > 3 * seen[1] && seen[1] > 100);
+    shot_close(&s);
+}
+
 /* Beside a drop the height map goes on below the glass, for the drop's rim. Where a sheet of film ends there it ends on
  * the glass, and does not fall down to that. */
 static void a_film_ends_on_the_glass_beside_drops(void **state)
@@ -620,6 +648,7 @@ int main(void)
         cmocka_unit_test(drops_join_where_they_nearly_touch),
         cmocka_unit_test(a_bead_beside_a_large_drop_has_no_walls),
         cmocka_unit_test(fine_film_covers_what_its_beads_do),
+        cmocka_unit_test(fine_film_is_seen_on_its_own_cells),
         cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
         cmocka_unit_test(a_drops_film_is_a_thread_until_it_breaks),
         cmocka_unit_test(a_thin_thread_breaks_sooner_and_into_more_beads),

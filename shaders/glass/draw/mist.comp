@@ -18,12 +18,22 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define MASKED ((MODE & 2u) != 0u)  // there may be cells without glass
 // In a row: of a workgroup that is four wide software Vulkan runs four lanes at a time, and not eight.
 #define COLUMNS (uint(VIRGA_GLASS_MIST_BLOCK) / PACKED)
+#define CELLS (uint(VIRGA_GLASS_MIST_BLOCK) * uint(VIRGA_GLASS_MIST_BLOCK)) // of a block of one cell per texel
+#define LANES (CELLS / PACKED)
 layout(local_size_x = VIRGA_GLASS_MIST_BLOCK * VIRGA_GLASS_MIST_BLOCK / PACKED) in;
 layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
 layout(scalar, set = 0, binding = 9) writeonly buffer Mist { uint mist[]; }; // four texels in a word
 layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 
 shared uint any_mist, any_shape;
+shared uint wet_count, wet_cells[CELLS], words[LANES]; // on a GPU
+
+bool has_water(uvec2 cell)
+{
+    const bool inside = cell.x < look.pane.columns && cell.y < look.pane.rows;
+    const uint number = inside ? cell.x + cell.y * look.pane.columns : 0u;
+    return inside && film[number] != 0u && (!MASKED || (surface[number] & 0x1000000u) != 0u);
+}
 
 // Mist of a cell, and whether it has film with a shape. Without branches there: inside one, software Vulkan reads
 // lane by lane.
@@ -46,16 +56,34 @@ float cell_mist(uvec2 cell, out bool has_shape)
     return has_water ? min(covered, 1.0) : 0.0;
 }
 
-// One cell per texel. The tiles are marked after all cells were read, by one loop, and not by one for each cell.
+// One cell per texel, on a GPU. Few cells have water: these are listed first, and all lanes share them.
+uint mist_of_wet_cells(uvec2 block, uint lane)
+{
+    const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK;
+    for (uint cell = lane; cell < CELLS; cell += LANES)
+        if (has_water(first + uvec2(cell % VIRGA_GLASS_MIST_BLOCK, cell / VIRGA_GLASS_MIST_BLOCK)))
+            wet_cells[atomicAdd(wet_count, 1u)] = cell;
+    barrier();
+    for (uint i = lane; i < wet_count; i += LANES) {
+        const uint cell = wet_cells[i];
+        const uvec2 at = first + uvec2(cell % VIRGA_GLASS_MIST_BLOCK, cell / VIRGA_GLASS_MIST_BLOCK);
+        bool shaped;
+        const uint own = packUnorm4x8(vec4(cell_mist(at, shaped), 0.0, 0.0, 0.0));
+        atomicOr(words[cell / PACKED], own << 8u * (cell % PACKED));
+        if (shaped)
+            mark_film_tiles(at);
+    }
+    barrier();
+    return words[lane];
+}
+
+// One cell per texel, on software Vulkan.
 uint mist_of_cells(uvec2 first, out bool has_shape)
 {
     bvec4 shaped;
     const float mist0 = cell_mist(first, shaped.x), mist1 = cell_mist(first + uvec2(1u, 0u), shaped.y);
     const float mist2 = cell_mist(first + uvec2(2u, 0u), shaped.z), mist3 = cell_mist(first + uvec2(3u, 0u), shaped.w);
     has_shape = any(shaped);
-    const uvec4 bits = uvec4(shaped) << uvec4(0u, 1u, 2u, 3u);
-    if (FOR_GPU)
-        mark_film_tiles_of(first, bits.x | bits.y | bits.z | bits.w);
     return packUnorm4x8(vec4(mist0, mist1, mist2, mist3));
 }
 
@@ -90,14 +118,18 @@ void draw_block(uvec2 block)
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        any_mist = any_shape = 0u;
+        any_mist = any_shape = wet_count = 0u;
+    if (FOR_GPU)
+        words[gl_LocalInvocationIndex] = 0u;
     barrier();
     const uint number = work_list[3u * look.max_tiles + look.max_blocks + gl_WorkGroupID.x];
     const uvec2 block = uvec2(number & 0xffffu, number >> 16);
     const uvec2 own = uvec2(gl_LocalInvocationIndex % COLUMNS, gl_LocalInvocationIndex / COLUMNS);
     const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK + own * uvec2(PACKED, 1u);
-    bool has_shape;
-    const uint word = SEVERAL ? mist_of_texels(first, has_shape) : mist_of_cells(first, has_shape);
+    bool has_shape = false;
+    const uint word = SEVERAL   ? mist_of_texels(first, has_shape)
+                      : FOR_GPU ? mist_of_wet_cells(block, gl_LocalInvocationIndex)
+                                : mist_of_cells(first, has_shape);
     mist[(first.x + first.y * look.mist_pitch) / PACKED] = word;
     if (word != 0u)
         atomicOr(any_mist, 1u);

@@ -82,25 +82,6 @@ void mark_film_tiles(uvec2 cell)
             atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
 }
 
-// The same for cells in a row, of which `cells` has a bit each. One loop goes over all of their tiles: lanes whose
-// cells are done do not wait at each cell for those with more tiles.
-void mark_film_tiles_of(uvec2 first_cell, uint cells)
-{
-    ivec2 at = ivec2(1), first, last = ivec2(0);
-    while (true) {
-        if (at.y > last.y) {
-            if (cells == 0u)
-                break;
-            film_tiles_of(first_cell + uvec2(findLSB(cells), 0u), first, last);
-            cells &= cells - 1u;
-            at = first;
-        }
-        if (at.x <= last.x && at.y <= last.y)
-            atomicOr(tiles[tile_number(uvec2(at))].film, 1u);
-        at = at.x < last.x ? ivec2(at.x + 1, at.y) : ivec2(first.x, at.y + 1);
-    }
-}
-
 // A ball's reach. Mist is spread over one texel. `stretch`: see virga_glass_ball_gpu; the ellipse whose points x have
 // c |x|^2 + q (x^2 - y^2) + 2 p x y = 1, with c^2 = 1 + q^2 + p^2, ends at sqrt(c - q) along u.
 vec2 ball_reach(float radius_m, float density_reach, vec2 stretch)
