@@ -174,7 +174,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_TILES] = tiles;
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
-    counts[COUNT_WORK] = 4 * tiles + 2 * blocks;
+    counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
     counts[COUNT_CORNERS] = glass_fog_offset(&sizes, def) + (def->condensation ? blocks * 12 : 0);
     counts[COUNT_FOG_COLUMNS] = def->condensation ? sizes.max_mist.width : 1;
     counts[COUNT_FOG_ROWS] = def->condensation ? sizes.max_mist.height : 1;
@@ -355,7 +355,6 @@ static const virga_effect_pass passes[] = {
     PICTURE(film_tiles, film_tiles),
     PICTURE(tile_list, tile_list),
     PICTURE(tile_fill, tile_fill),
-    PICTURE(film_changed, film_changed),
     PICTURE(tile_quads, tile_quads),
     PICTURE(plate_copy, plate_copy),
     PICTURE(plate_shrink, plate_shrink),

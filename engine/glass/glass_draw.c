@@ -351,8 +351,6 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->tile_fill, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
-    over_work(glass, cmd, picture->film_changed, offsetof(virga_glass_work_gpu, film_groups));
-    virga_indirect_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -388,7 +386,7 @@ static void record_height_map(virga_glass *glass, VkCommandBuffer cmd)
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
     virga_indirect_barrier(context, cmd); /* both gather passes write group counts of later passes */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
-              offsetof(virga_glass_work_gpu, changed_groups));
+              offsetof(virga_glass_work_gpu, film_groups));
     virga_indirect_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->tile_quads, tile_groups(picture));
     if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER)

@@ -108,8 +108,8 @@ struct glass_picture {
     virga_bindings *bindings;
     virga_pipeline *ball_passes[2];    /* without and with drops as textures */
     virga_pipeline *texture_passes[2]; /* without and with the scene's depth */
-    virga_pipeline *drop_quads, *front_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *film_changed,
-        *tile_quads, *plate_copy, *plate_shrink, *fog_map_pass;
+    virga_pipeline *drop_quads, *front_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads,
+        *plate_copy, *plate_shrink, *fog_map_pass;
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];              /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS];  /* by GLASS_GATHER_... bits; NULL: not needed yet */

@@ -26,7 +26,6 @@ typedef struct virga_glass_quad_gpu virga_glass_quad_gpu;
 #define VIRGA_GLASS_USUAL_STEPS 5
 #define VIRGA_GLASS_DROP_BALLS  4  /* max balls of one slot */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls per workgroup of the pass that fills the lists */
-#define VIRGA_GLASS_FILM_TILES  8  /* tiles per workgroup of the pass that finds changed film */
 /* texels a side of the background picture's largest copy; smaller ones are to its right */
 #define VIRGA_GLASS_COPY        256
 #define VIRGA_GLASS_COPY_WIDTH  392 /* 256 + 128 + 8 */
@@ -184,11 +183,11 @@ struct virga_glass_corners_gpu {
 /* Work lists: arguments of indirect dispatches and draws, then counts. The lists follow: tiles without film; from
  * look.max_tiles on, tiles with film; from 2 look.max_tiles on, blocks of the mist map with film that has a shape;
  * look.max_blocks further, tiles with something to show; look.max_tiles further, blocks of the mist map that may have
- * any film; look.max_blocks further, tiles whose film or drops on film have changed. The order in a list does not matter, because entries are independent. All zero when a view's passes
+ * any film. The order in a list does not matter, because entries are independent. All zero when a view's passes
  * begin. */
 struct virga_glass_work_gpu {
     uint tile_groups[3];           /* of the gathering pass over tiles without film */
-    uint film_groups[3];           /* of the pass over tiles with film */
+    uint film_groups[3];           /* of the gathering pass over tiles with film */
     uint ball_groups[3];           /* of the pass that fills the lists */
     uint block_groups[3];          /* of the pass over blocks with film that has a shape */
     uint relief_groups[3];         /* of the pass over tiles that have, or had, something to show */
@@ -206,8 +205,6 @@ struct virga_glass_work_gpu {
     uint mist_groups[3];            /* of the pass over blocks of the mist map that may have any film */
     virga_glass_corners_gpu quads;  /* draw of drops as textures */
     virga_glass_corners_gpu fog[2]; /* draws of blocks with fog: of droplets that are not seen, and that are */
-    uint changed_groups[3];         /* of the gathering pass over tiles whose film or drops on film have changed */
-    uint changed_tiles;             /* entries of the list of them */
 };
 
 /* The water on a tile of the map. */
@@ -225,7 +222,7 @@ VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 24);
 VIRGA_ASSERT_SIZE(virga_glass_written_gpu, 12);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_glass_quad_gpu, 4 * VIRGA_GLASS_QUAD_WORDS);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 224);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 208);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

@@ -59,8 +59,8 @@ float thread_half_width(float nl, vec2 link)
     return sqrt(nl * 0.75e-12 / max(look.cap_height * length(link) * look.pane.cell_m, 1e-12));
 }
 
-// The part of a cell's film that is still a sheet or a thread, by its water and the word of its wetting. By whole ticks,
-// so that views within a tick have the same film, see tiles.glsl.
+// The part of a cell's film that is still a sheet or a thread, by its water and the word of its wetting. By whole
+// ticks, so that views within a tick have the same film, see tiles.glsl.
 float film_fresh(uint nl, uint wetted)
 {
     const float age = float((look.tick - wetted) & VIRGA_GLASS_WETTED) * look.tick_s;

@@ -287,8 +287,7 @@ void list_around(ivec2 tile, uint i, bool itself)
 uint tile_of_group()
 {
     const uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
-    return FILM ? work_list[3u * look.max_tiles + 2u * look.max_blocks + min(index, work.changed_tiles - 1u)]
-                : work_list[min(index, work.tiles - 1u)];
+    return work_list[min(index, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
 }
 
 // Balls are summed at displaced points.

@@ -1,6 +1,5 @@
 // tile_list.comp - lists the tiles that need work, and gives each tile its range in the buffer of entries. Tiles that
-// show the same as before need none (see tiles.glsl); those with film are looked at by film_changed.comp. The order is
-// not defined, and no result depends on it. If the entries of all tiles do not fit, tiles with more than an equal share
+// show the same as before need none, see tiles.glsl. The order is not defined, and no result depends on it. If the entries of all tiles do not fit, tiles with more than an equal share
 // are left out as a whole, so that the picture does not depend on the order either.
 // One invocation per tile. Reads: the tiles' counts and flags. Writes: work lists, dispatch sizes, the tiles' ranges.
 #version 460
@@ -14,10 +13,8 @@ layout(scalar, set = 0, binding = 17) readonly buffer Written { virga_glass_writ
 
 shared uint entries, cut, listed[2], first_entry, first_listed[2];
 
-void size_dispatch(bool with_film, uint tile_count)
+void size_dispatch(bool with_film, uint count)
 {
-    const uint count =
-        with_film ? (tile_count + VIRGA_GLASS_FILM_TILES - 1u) / VIRGA_GLASS_FILM_TILES : tile_count;
     const uint x = min(count, VIRGA_GLASS_TILE_ROW), y = (count + VIRGA_GLASS_TILE_ROW - 1u) / VIRGA_GLASS_TILE_ROW;
     if (with_film) {
         atomicMax(work.film_groups[0], x);
@@ -39,7 +36,7 @@ void allocate()
     if (cut != 0u)
         atomicAdd(work.cut, cut);
     if (gl_WorkGroupID.x == 0u) {
-        work.tile_groups[2] = work.film_groups[2] = work.changed_groups[2] = 1u;
+        work.tile_groups[2] = work.film_groups[2] = 1u;
         work.relief_groups[2] = work.drops.instance_count = 1u;
         work.ball_groups = uint[3]((work.balls + VIRGA_GLASS_FILL_GROUP - 1u) / VIRGA_GLASS_FILL_GROUP, 1u, 1u);
     }
@@ -56,8 +53,8 @@ void main()
     const uint before_map = before.holds & (VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
     const uint ball_count = tiles[clamped].count, film = tiles[clamped].film;
     const bool fits = work.entries <= look.max_entries || ball_count <= look.max_entries / count;
-    const uvec2 content = uvec2(tiles[clamped].content[0], tiles[clamped].content[1]) + common_hash(fits);
-    const bool same = film == 0u && look.whole_map == 0u && content == uvec2(before.content[0], before.content[1]);
+    const uvec2 content = uvec2(tiles[clamped].content[0], tiles[clamped].content[1]) + common_hash(fits, film != 0u);
+    const bool same = look.whole_map == 0u && content == uvec2(before.content[0], before.content[1]);
     const uint entry_count = i < count && fits && !same ? ball_count : 0u;
     // A tile that has no water and had none before is unchanged.
     const bool needed = i < count && !same && (ball_count | film | before_map | look.whole_map) != 0u;

@@ -13,10 +13,12 @@ layout(scalar, set = 0, binding = 18) buffer Work
 // ---- what a tile shows
 //
 // Most water on a pane stands still from one picture to the next. So each tile knows what its texels were made of: the
-// sum of a hash of each ball and of each cell of film on it, and of what all tiles have in common. A sum does not
-// depend on the order. Where it is that of the newest view, the tile's texels are those of that view to the bit, and
-// nothing writes them. Two hashes have 64 bits together: with a million changes a second, one in 600,000 years would be
-// taken for none.
+// sum of a hash of each ball on it, and of what all tiles have in common. A sum does not depend on the order. Where it
+// is that of the newest view, the tile's texels are those of that view to the bit, and nothing writes them. Two hashes
+// have 64 bits together: with a million changes a second, one in 600,000 years would be taken for none.
+//
+// Film dries and breaks, a little everywhere. To look for it in each tile costs more than it saves where each view has
+// ticks of its own, so tiles with film are kept within a tick only: film is the same there.
 
 // Absorbs a word in both hashes.
 uvec2 absorb(uvec2 hashes, uint word)
@@ -26,17 +28,18 @@ uvec2 absorb(uvec2 hashes, uint word)
 
 uvec2 absorb(uvec2 hashes, float number) { return absorb(hashes, floatBitsToUint(number)); }
 
-#define BALL_HASH uvec2(0x243f6a88u, 0x85a308d3u) // pi: first words of hashes; one pair for balls, one for cells
-#define CELL_HASH uvec2(0x13198a2eu, 0x03707344u)
+#define BALL_HASH uvec2(0x243f6a88u, 0x85a308d3u) // pi: first words of hashes
+#define FILM_HASH uvec2(0x13198a2eu, 0x03707344u)
 
 // Heights are divided by this, about the radius of the view's widest ball. It is rounded up to two digits, of which
 // the second is a quarter: else it would change with every drop that runs.
 float widest_m() { return uintBitsToFloat((work.highest + 0x1fffffu) & ~0x1fffffu); }
 
-// Both hashes of what all tiles have in common. `fits`: the tile's balls are in its list.
-uvec2 common_hash(bool fits)
+// Both hashes of what a tile shows besides balls. `fits`: the tile's balls are in its list.
+uvec2 common_hash(bool fits, bool film)
 {
-    return absorb(absorb(uvec2(look.map_seed, ~look.map_seed), widest_m()), fits ? 1u : 0u);
+    const uvec2 all_tiles = absorb(absorb(uvec2(look.map_seed, ~look.map_seed), widest_m()), fits ? 1u : 0u);
+    return film ? all_tiles + absorb(FILM_HASH, look.tick) : all_tiles;
 }
 
 vec2 tile_m() { return texel_m() * float(TILE); }
