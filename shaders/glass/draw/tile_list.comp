@@ -1,6 +1,7 @@
 // tile_list.comp - lists the tiles that need work, and gives each tile its range in the buffer of entries. Tiles that
-// show the same as before need none, see tiles.glsl. The order is not defined, and no result depends on it. If the entries of all tiles do not fit, tiles with more than an equal share
-// are left out as a whole, so that the picture does not depend on the order either.
+// show the same as before need none, see tiles.glsl. The order is not defined, and no result depends on it. If the
+// entries of all tiles do not fit, tiles with more than an equal share are left out as a whole, so that the picture
+// does not depend on the order either.
 // One invocation per tile. Reads: the tiles' counts and flags. Writes: work lists, dispatch sizes, the tiles' ranges.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
