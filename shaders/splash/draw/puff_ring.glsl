@@ -29,19 +29,15 @@ vec2 ring_part(vec2 at, vec2 radii)
     return vec2(max(hat(off, RING_PX), inside), perimeter * RING_PX + INSIDE * 3.14159265 * radii.x * radii.y);
 }
 
-vec2 streak_part(vec2 at, vec2 from, vec2 to)
+// `at`: from where it begins.
+vec2 streak_part(vec2 at, vec2 way)
 {
-    const vec2 way = to - from;
-    const float along = clamp(dot(at - from, way) / max(dot(way, way), 1e-4), 0.0, 1.0);
-    return vec2(hat(distance(at, from + way * along), FINGER_PX), (length(way) + FINGER_PX) * FINGER_PX);
+    const float squared = dot(way, way), along = clamp(dot(at, way) / max(squared, 1e-4), 0.0, 1.0);
+    return vec2(hat(length(at - way * along), FINGER_PX), (sqrt(squared) + FINGER_PX) * FINGER_PX);
 }
 
-// Where a droplet is at a part of the life: it leaves the ring outwards and up, and falls back.
-vec2 finger_at(vec2 radii, vec2 outward, vec2 reach, float life)
-{
-    return outward * (radii + reach.x * vec2(1.0, radii.y / radii.x) * life) +
-           vec2(0.0, reach.y * life * 1.1 * (1.0 - life));
-}
+// How high a droplet is at a part of the life: it leaves the ring outwards and up, and falls back.
+float finger_rise(float life) { return 1.1 * life * (1.0 - life); }
 
 vec2 ring_radii(float half_wide, float sine, float share)
 {
@@ -52,7 +48,7 @@ vec2 ring_radii(float half_wide, float sine, float share)
 // between them.
 //
 // The spot: one_crown_cover is 0 beyond half_wide, and beyond half a pixel below and above its walls. A droplet: the
-// largest factors of finger_at and of its reach. The ring: where ring_part's distance is h, the point is f = 1 + h
+// largest factors of its way and of its reach. The ring: where ring_part's distance is h, the point is f = 1 + h
 // sqrt(c^2 / rx^2 + s^2 / ry^2) times as far out as (c rx, s ry) with c^2 + s^2 = 1. So with rx >= ry its y is at most
 // ry + h, and its x at most rx + h sqrt(c^4 + (c s rx / ry)^2), where c s is at most 1/2.
 vec3 crown_box(float half_wide, float high, float sine, float share) // half width; how far down, and up
@@ -78,13 +74,18 @@ float ring_cover(vec2 at, float half_wide, float high, float sine, float share, 
     // The half width and the height are those that the droplets have reached by now.
     const float age = max(life, 0.05), before = max(age - (view.time_close_s - view.time_open_s) / LIFE_S, 0.0);
     const vec2 most = vec2((1.0 - share) * half_wide, high) / age;
+    // A droplet goes straight outwards on the ground, with the ring's ratio, and up and down over it.
+    const vec2 ground = vec2(1.0, radii.y / radii.x), out_before = before * ground, out_since = (age - before) * ground;
+    const float up_before = finger_rise(before), up_since = finger_rise(age) - up_before;
+    const float leaving = 1.0 - smoothstep(0.45, 0.8, life);
     for (int i = 0; i < FINGERS && share < 0.97; i++) {
         const vec2 other = fract(chance.xy * (3.7 + 2.3 * float(i)) + chance.zw * (1.0 + float(i)));
-        const float turn = 6.2831853 * (fract((float(i) + 0.8 * other.x) / float(FINGERS) + chance.z) - 0.5);
+        const float turn = 6.2831853 * ((float(i) + 0.8 * other.x) / float(FINGERS) + chance.z - 0.5);
         const vec2 outward = vec2(cos(turn), sin(turn)),
                    reach = most * vec2(0.55 + 0.6 * other.y, 0.45 + 0.65 * other.x);
-        const float there = i < STAYING ? 1.0 : 1.0 - smoothstep(0.45, 0.8, life);
-        sum += there * streak_part(at, finger_at(radii, outward, reach, before), finger_at(radii, outward, reach, age));
+        const vec2 from = outward * (radii + reach.x * out_before) + vec2(0.0, reach.y * up_before);
+        const vec2 way = outward * (reach.x * out_since) + vec2(0.0, reach.y * up_since);
+        sum += (i < STAYING ? 1.0 : leaving) * streak_part(at - from, way);
     }
     return sum.x / max(sum.y, 1.0);
 }

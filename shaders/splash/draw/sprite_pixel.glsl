@@ -80,8 +80,10 @@ float pile_cover()
 // As a spot, or by its ring and droplets where they are large enough to be seen.
 float crown_cover(vec2 at, float half_wide, float high, vec4 chance)
 {
-    const float spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
     const float seen = shape.y > 0.0 ? smoothstep(look.parts_px, 1.5 * look.parts_px, half_wide) : 0.0;
+    float spot = 0.0;
+    if (!FOR_GPU || seen < 1.0) // software Vulkan runs it for all
+        spot = one_crown_cover(at, half_wide, high, axis_chance.y, chance);
     const float parts =
         seen > 0.0 ? ring_cover(at, half_wide, high, axis_chance.y, shape.y, fract(axis_chance.x), chance) : 0.0;
     return mix(spot, parts, seen);
