@@ -129,9 +129,10 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
 static void draw_rings(const virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_context *context = ground->base.context;
-    context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
+    const uint32_t vertices = VIRGA_RING_VERTICES(!context->for_software);
+    context->vk.CmdDraw(cmd, vertices * VIRGA_MAX_RINGS, 1, 0, 0);
     if (ground->settings.wake_waves > 0 && ground->ticks < ground->wakes_end)
-        context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_WAKES, 1, 6 * VIRGA_MAX_RINGS, 0);
+        context->vk.CmdDraw(cmd, vertices * VIRGA_MAX_WAKES, 1, vertices * VIRGA_MAX_RINGS, 0);
 }
 
 void ground_ripples_draw(const virga_ground *ground, VkCommandBuffer cmd)
