@@ -211,8 +211,8 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->sheets = s->style == VIRGA_GLASS_STYLE_PHYSICAL || look->whole_map;
 }
 
-/* A hash of all that the maps depend on besides water. Words that are the same in all views of a pane do no harm. */
-static uint32_t map_seed_of(const virga_glass *glass, const virga_glass_picture_gpu *look)
+/* Two hashes of all that the maps depend on besides water. */
+static void fill_map_seed(const virga_glass *glass, virga_glass_picture_gpu *look)
 {
     const float numbers[] = {look->texel_m[0],   look->texel_m[1], look->drop_nl_of_m3, look->cap_height,
                              look->film_break_s, look->threshold,  look->compress_from, look->compress_step,
@@ -228,15 +228,17 @@ static uint32_t map_seed_of(const virga_glass *glass, const virga_glass_picture_
                               look->mist_cells,
                               glass->shape_count,
                               (uint32_t)glass->settings.style};
-    uint32_t hash = look->bead_seed;
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        uint32_t bits;
-        memcpy(&bits, &numbers[i], sizeof bits);
-        hash = virga_hash_absorb(hash, bits);
+    for (uint32_t k = 0; k < 2; k++) {
+        uint32_t hash = virga_hash2(look->bead_seed, k);
+        for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+            uint32_t bits;
+            memcpy(&bits, &numbers[i], sizeof bits);
+            hash = virga_hash_absorb(hash, bits);
+        }
+        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+            hash = virga_hash_absorb(hash, words[i]);
+        look->map_seed[k] = hash;
     }
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        hash = virga_hash_absorb(hash, words[i]);
-    return hash;
 }
 
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
@@ -252,7 +254,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fit_map(glass, &filled);
     fit_bounds(glass, &filled);
     fit_mist(glass, &filled.look);
-    filled.look.map_seed = map_seed_of(glass, &filled.look);
+    fill_map_seed(glass, &filled.look);
     glass_fill_textures(glass, &filled);
     glass->picture.columns = filled.look.map_columns;
     glass->picture.rows = filled.look.map_rows;

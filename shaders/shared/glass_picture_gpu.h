@@ -79,7 +79,7 @@ struct virga_glass_picture_gpu {
     uint whole_map;      /* 1: the host reads the map, so all of it is written */
     uint masked;         /* 1: the pane has a mask */
     uint bead_seed;      /* hash of the pane's seed, for beads of film */
-    uint map_seed;       /* hash of the settings that the maps depend on */
+    uint map_seed[2];    /* hashes of the settings that the maps depend on */
     /* from positions relative to the camera to the previous frame's clip space, for points that are fixed on the
      * pane */
     float previous_from_here[16];
@@ -212,7 +212,7 @@ struct virga_glass_tile_gpu {
     uint count;  /* balls that touch it */
     uint first;  /* first entry of its list */
     uint filled; /* entries written so far */
-    uint film;   /* bit 0: film with a shape, or a sheet of film; then VIRGA_GLASS_LISTED, _SHOWN and spans */
+    uint film;   /* bit 0: film with a shape, or a sheet of film; then the flags above, and spans */
     /* Sums of hashes of all that its texels depend on: two, so that no two contents are taken for the same */
     uint content[2];
 };

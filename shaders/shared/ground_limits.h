@@ -49,7 +49,7 @@
 #define VIRGA_WAKE_SHALLOW       5
 #define VIRGA_WAKE_SHALLOW_FRONT 0.31
 /* live or still to come at once; if more drops fall, a random choice of them gets rings */
-#define VIRGA_MAX_RINGS 6144
+#define VIRGA_MAX_RINGS              6144
 #define VIRGA_RING_VERTICES(for_gpu) ((for_gpu) ? 12u : 6u) /* of a ring: of a hexagon's triangles or a square's */
 /* Craters of wakes, behind those of drops: a new one replaces the oldest. Four wheels leave 60 of them in a metre. */
 #define VIRGA_MAX_WAKES 512

@@ -194,9 +194,6 @@ static double drawn_sum(const scene *s)
     return sum;
 }
 
-/* The lamp moves by a texel and a half in steps of a fifth of one. Of a highlight that is not made as wide as the
- * texels these see nearly nothing, or tens of times as much. A twentieth is in the tails of the lobe, outside of what
- * is added up. */
 static void draw(scene *s, const virga_light *lamp)
 {
     const host_camera_key key = {.position_m = {eye_m[0], eye_m[1], eye_m[2]}, .look_at_m = {0, 1.5, 0}};
@@ -207,6 +204,9 @@ static void draw(scene *s, const virga_light *lamp)
     assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
 }
 
+/* The lamp moves by a texel and a half in steps of a fifth of one. Of a highlight that is not made as wide as the
+ * texels these see nearly nothing, or tens of times as much. A twentieth is in the tails of the lobe, outside of what
+ * is added up. */
 static void a_highlight_in_the_mirror_does_not_flash(void **state)
 {
     scene *s = *state;
@@ -233,6 +233,8 @@ static double reflected(double cosine)
 /* Ground that has no pores, lit from above through 5 mm of water: of even light a part enters; what comes up again is
  * thrown back but for the same part, over n^2; and the rest is seen through the surface. To 3 %: Fresnel's share is
  * Schlick's approximation there. */
+/* The lamp is overhead. Its light enters as even light does on average, as the shader has it: 0.934 in place of the
+ * 0.98 of light from straight above. */
 static void ground_without_pores_is_darker_under_water(void **state)
 {
     enum { STEPS = 10000, ROW = 79 };

@@ -257,8 +257,7 @@ uint write_texel(ivec2 at, Texel texel)
     return PAPER || sheet <= 0.0 ? found : found | WET | (sheet > 1e-6 ? SHOWN : 0u);
 }
 
-// Adds a tile to the list of the next pass, once. Where a tile has changed, slopes change in it and at the sides of
-// those beside it: of these, all that have slopes which this view does not write for their own sake.
+// Adds a tile to the list of the next pass.
 void list_tile(uvec2 tile)
 {
     const uint index = atomicAdd(work.relief_tiles, 1u);
@@ -269,7 +268,9 @@ void list_tile(uvec2 tile)
         atomicMax(work.relief_groups[1], index / VIRGA_GLASS_TILE_ROW + 1u);
 }
 
-// By the invocations 0 to 4: the tile, and the four beside it.
+// By the invocations 0 to 4: lists the tile, and the four beside it. Where a tile has changed, slopes change in it and
+// at the sides of those beside it: of these, all that have slopes already. Others list themselves if they get any. Each
+// is listed once.
 void list_around(ivec2 tile, uint i, bool itself)
 {
     const ivec2 there = tile + (i == 0u ? ivec2(0) : i == 1u ? ivec2(1, 0) : i == 2u ? ivec2(-1, 0)

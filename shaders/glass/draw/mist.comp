@@ -42,18 +42,18 @@ float cell_mist(uvec2 cell, out bool has_shape)
     const bool inside = cell.x < look.pane.columns && cell.y < look.pane.rows;
     const uint number = inside ? cell.x + cell.y * look.pane.columns : 0u;
     const uint water = film[number], wetted_tick = passed[number];
-    bool has_water = inside && water != 0u;
+    bool wet = inside && water != 0u;
     if (MASKED)
-        has_water = has_water && (surface[number] & 0x1000000u) != 0u;
-    if (FOR_GPU && !has_water) {
+        wet = wet && (surface[number] & 0x1000000u) != 0u;
+    if (FOR_GPU && !wet) {
         has_shape = false;
         return 0.0;
     }
     const float nl = float(water), fresh = film_fresh(water, wetted_tick);
     const vec2 radii = bead_radii(number, nl, film_link(wetted_tick), nl * (1.0 - fresh)), shapes = bead_shapes(radii);
     const float covered = dot(radii * radii, 1.0 - shapes) * 3.14159265 / (look.pane.cell_m * look.pane.cell_m);
-    has_shape = has_water && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
-    return has_water ? min(covered, 1.0) : 0.0;
+    has_shape = wet && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
+    return wet ? min(covered, 1.0) : 0.0;
 }
 
 // One cell per texel, on a GPU. Few cells have water: these are listed first, and all lanes share them.

@@ -1,5 +1,5 @@
-// tile_fill.comp - adds each ball to the lists of the tiles that it reaches: as many entries as balls.comp counted, in
-// any order.
+// tile_fill.comp - adds each ball to the lists of the tiles that it reaches, in any order: as many entries as
+// balls.comp counted, or none where a tile shows the same as before.
 // One invocation per ball. Reads: balls, the tiles' ranges. Writes: entries.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -31,14 +31,14 @@ uvec2 absorb(uvec2 hashes, float number) { return absorb(hashes, floatBitsToUint
 #define BALL_HASH uvec2(0x243f6a88u, 0x85a308d3u) // pi: first words of hashes
 #define FILM_HASH uvec2(0x13198a2eu, 0x03707344u)
 
-// Heights are divided by this, about the radius of the view's widest ball. It is rounded up to two digits, of which
-// the second is a quarter: else it would change with every drop that runs.
+// Heights are divided by this, about the radius of the view's widest ball. It is rounded up, to 1, 1.25, 1.5 or 1.75
+// times a power of two: else it would change with every drop that runs.
 float widest_m() { return uintBitsToFloat((work.highest + 0x1fffffu) & ~0x1fffffu); }
 
 // Both hashes of what a tile shows besides balls. `fits`: the tile's balls are in its list.
 uvec2 common_hash(bool fits, bool film)
 {
-    const uvec2 all_tiles = absorb(absorb(uvec2(look.map_seed, ~look.map_seed), widest_m()), fits ? 1u : 0u);
+    const uvec2 all_tiles = absorb(absorb(uvec2(look.map_seed[0], look.map_seed[1]), widest_m()), fits ? 1u : 0u);
     return film ? all_tiles + absorb(FILM_HASH, look.tick) : all_tiles;
 }
 

@@ -183,9 +183,10 @@ vec3 lobe_of(Lobe lobe, float within2, float n_l, vec3 v, vec3 l)
 // How much the half vector turns against the normal within a texel of the mirror's picture, as what it adds to alpha^2.
 // A lamp in a pane is narrower than the texels: of the pictures that are averaged one would hit it with all its light,
 // and water makes a pillar of that, which flashes. With the texel as a normal distribution whose deviation is half of
-// its side (as in water.glsl) the slope's variance along an axis is a quarter of the square that it differs by from
-// texel to texel, and alpha^2 is twice the variance. Sampled at each texel, such a distribution adds up to the same
-// within 2 exp(-2 pi^2 / 4) = 1.4 %, wherever the texels lie.
+// its side (as in water.glsl) the slope's variance is a quarter of the squares that it differs by from texel to texel,
+// right and down, and alpha^2 is twice the variance. Both are taken for one axis, so a highlight gets wider rather than
+// narrower. Sampled at each texel, a normal distribution adds up to the same within 2 exp(-2 pi^2 / 4) = 1.4 %,
+// wherever the texels lie; the lobe has longer tails.
 float within_texel(vec3 n, vec3 v, vec3 l)
 {
 #ifdef MIRROR
