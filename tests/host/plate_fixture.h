@@ -142,4 +142,38 @@ static inline int fixture_result(int failed)
     return failed + (int)fixture_wrong;
 }
 
+/* What tests of the plate have in common. First in a test's own scene, for fixture_set_up. */
+typedef struct plate_scene {
+    fixture base;
+    host_target target;
+    host_renderer *renderer;
+    host_environment environment;
+    host_accumulator sums;
+    host_drawn picture;
+} plate_scene;
+
+/* Without meshes. False: base.error says why. */
+static inline bool plate_open(plate_scene *p, uint32_t width, uint32_t height, const host_environment_def *sky)
+{
+    host_device *device = &p->base.device;
+    char *error = p->base.error;
+    const size_t size = sizeof p->base.error;
+    return host_target_create(device, width, height, &p->target, error, size) &&
+           host_renderer_create(device, &p->renderer, error, size) &&
+           host_environment_create(device, sky, &p->environment, error, size) &&
+           host_renderer_set_environment(p->renderer, &p->environment, error, size) &&
+           host_accumulator_create(device, width, height, &p->sums, error, size) &&
+           host_drawn_create(width, height, &p->picture, error, size);
+}
+
+/* Before the meshes are destroyed, and these before fixture_tear_down. */
+static inline void plate_close(plate_scene *p)
+{
+    host_accumulator_destroy(&p->sums);
+    host_drawn_destroy(&p->picture);
+    host_renderer_destroy(&p->renderer);
+    host_environment_destroy(&p->base.device, &p->environment);
+    host_target_destroy(&p->base.device, &p->target);
+}
+
 #endif

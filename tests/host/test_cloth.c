@@ -25,13 +25,8 @@ static const host_camera_key key = {.position_m = {0, 2, 8}, .look_at_m = {0, 2,
 static const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 45, .near_m = 0.1, .far_m = 100};
 
 typedef struct scene {
-    fixture base;
-    host_target target;
-    host_renderer *renderer;
-    host_environment environment;
+    plate_scene plate;
     host_mesh cloth; /* upright, before the camera */
-    host_accumulator sums;
-    host_drawn picture;
 } scene;
 
 static bool add_cloth(scene *s)
@@ -51,24 +46,16 @@ static bool add_cloth(scene *s)
         memcpy(v[i].position, corners[i], sizeof v[i].position);
         v[i].normal[2] = 1;
     }
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, &s->cloth, s->base.error,
-                            sizeof s->base.error) &&
-           host_renderer_add(s->renderer, &s->cloth, s->base.error, sizeof s->base.error);
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, &s->cloth, s->plate.base.error,
+                            sizeof s->plate.base.error) &&
+           host_renderer_add(s->plate.renderer, &s->cloth, s->plate.base.error, sizeof s->plate.base.error);
 }
 
 static bool build(void *zeroed)
 {
     scene *s = zeroed;
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
     const host_environment_def black = {.intensity = 1};
-    return host_target_create(device, SIDE, SIDE, &s->target, error, size) &&
-           host_renderer_create(device, &s->renderer, error, size) && add_cloth(s) &&
-           host_environment_create(device, &black, &s->environment, error, size) &&
-           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
-           host_accumulator_create(device, SIDE, SIDE, &s->sums, error, size) &&
-           host_drawn_create(SIDE, SIDE, &s->picture, error, size);
+    return plate_open(&s->plate, SIDE, SIDE, &black) && add_cloth(s);
 }
 
 static int set_up(void **state)
@@ -79,32 +66,29 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->sums);
-    host_drawn_destroy(&s->picture);
-    host_renderer_destroy(&s->renderer);
-    host_environment_destroy(&s->base.device, &s->environment);
-    host_mesh_destroy(&s->base.device, &s->cloth);
-    host_target_destroy(&s->base.device, &s->target);
-    return fixture_tear_down(&s->base);
+    plate_close(&s->plate);
+    host_mesh_destroy(&s->plate.base.device, &s->cloth);
+    return fixture_tear_down(&s->plate.base);
 }
 
 /* What is seen in the middle, with a lamp straight before the cloth or straight behind it. */
 static void look(scene *s, double lamp_z, bool wet, double seen[3])
 {
     host_camera camera;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
+    char *error = s->plate.base.error;
+    const size_t size = sizeof s->plate.base.error;
     virga_walls walls = {.spread = 0};
     const virga_light lamp = {.position_m = {0, 2, lamp_z}, .intensity = {(float)WATTS, (float)WATTS, (float)WATTS}};
     for (int row = 0; row < VIRGA_WALL_ROWS; row++)
         for (int i = 0; i < VIRGA_WALL_MATERIALS; i++)
             walls.rows[row][i] = (virga_wall_gpu){.wet = 1};
-    host_renderer_set_lights(s->renderer, &lamp, 1);
+    host_renderer_set_lights(s->plate.renderer, &lamp, 1);
     host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
-    assert_true(host_renderer_set_walls(s->renderer, wet ? &walls : NULL, error, size));
-    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+    assert_true(host_renderer_set_walls(s->plate.renderer, wet ? &walls : NULL, error, size));
+    assert_true(
+        fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera, &s->plate.picture));
     for (int c = 0; c < 3; c++)
-        seen[c] = (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2) + c];
+        seen[c] = (double)s->plate.picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2) + c];
 }
 
 /* Two streams through a layer of unit thickness, as they lose and give to each other (Kubelka and Munk): by Runge and
@@ -213,8 +197,9 @@ static bool add_roof(scene *s, host_mesh *mesh, float high_m, float half_m, floa
         v[i].position[2] = i > 1 ? half_m : -half_m;
         v[i].normal[1] = 1;
     }
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error) &&
-           host_renderer_add(s->renderer, mesh, s->base.error, sizeof s->base.error);
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
+                            sizeof s->plate.base.error) &&
+           host_renderer_add(s->plate.renderer, mesh, s->plate.base.error, sizeof s->plate.base.error);
 }
 
 /* Of the ground below cloth that lets such a part through, under a white sky. */
@@ -222,28 +207,29 @@ static double seen_below(scene *s, float sky_passes)
 {
     static const host_camera_key down = {.position_m = {0, 2, 4}, .look_at_m = {0, 0, 0}};
     static const host_camera_path below = {.keys = &down, .count = 1, .fov_deg = 45, .near_m = 0.1, .far_m = 100};
-    host_device *device = &s->base.device;
+    host_device *device = &s->plate.base.device;
     host_environment_def white = {.intensity = 1};
-    host_renderer *before = s->renderer;
+    host_renderer *before = s->plate.renderer;
     host_environment sky;
     host_mesh ground, roof;
     host_camera camera;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
+    char *error = s->plate.base.error;
+    const size_t size = sizeof s->plate.base.error;
     for (int c = 0; c < 3; c++)
         white.zenith[c] = white.horizon[c] = white.ground[c] = 1;
-    assert_true(host_renderer_create(device, &s->renderer, error, size));
+    assert_true(host_renderer_create(device, &s->plate.renderer, error, size));
     assert_true(add_roof(s, &ground, 0, 40, 0) && add_roof(s, &roof, 3, 60, sky_passes));
     assert_true(host_environment_create(device, &white, &sky, error, size));
-    assert_true(host_renderer_set_environment(s->renderer, &sky, error, size));
+    assert_true(host_renderer_set_environment(s->plate.renderer, &sky, error, size));
     host_camera_at(&below, 0, SIDE, SIDE, NULL, &camera);
-    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
-    host_renderer_destroy(&s->renderer);
-    s->renderer = before;
+    assert_true(
+        fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera, &s->plate.picture));
+    host_renderer_destroy(&s->plate.renderer);
+    s->plate.renderer = before;
     host_environment_destroy(device, &sky);
     host_mesh_destroy(device, &ground);
     host_mesh_destroy(device, &roof);
-    return (double)s->picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+    return (double)s->plate.picture.color[4 * (SIDE / 2 * SIDE + SIDE / 2)];
 }
 
 /* The sky's part T, and of what is hidden a quarter as bright as it is there: T + T (1 - T) / 4 (sky_share of

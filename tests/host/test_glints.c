@@ -25,14 +25,9 @@ static const double albedo[3] = {0.6, 0.4, 0.1}; /* of the ground, which has no 
 static const double eye_m[3] = {0, 1.5, 7}, glint_m[3] = {2.1, 1.0, 0}, lamp_away_m = 3;
 
 typedef struct scene {
-    fixture base;
-    host_target target;
-    host_renderer *renderer;
-    host_environment dark;
+    plate_scene plate;
     host_mesh ground, pane;
     host_image maps[MAPS];
-    host_accumulator sums;
-    host_drawn picture;
 } scene;
 
 /* ---- the scene ------------------------------------------------------------------------------------------------ */
@@ -49,8 +44,9 @@ static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const
         memcpy(v[i].position, corners[i], sizeof v[i].position);
         memcpy(v[i].normal, normal, sizeof v[i].normal);
     }
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error) &&
-           host_renderer_add(s->renderer, mesh, s->base.error, sizeof s->base.error);
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
+                            sizeof s->plate.base.error) &&
+           host_renderer_add(s->plate.renderer, mesh, s->plate.base.error, sizeof s->plate.base.error);
 }
 
 /* 5 mm of water without waves. */
@@ -62,9 +58,9 @@ static bool lay_water(scene *s)
         wet[i][0] = 0x3c00; /* 1 */
         wet[i][1] = 0x4500; /* 5 */
     }
-    if (!fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
-        !fixture_map(&s->base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
-        !fixture_map(&s->base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
+    if (!fixture_map(&s->plate.base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
+        !fixture_map(&s->plate.base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
+        !fixture_map(&s->plate.base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
         return false;
     const virga_ground_maps maps = {.wetness = s->maps[0].view,
                                     .spots = s->maps[1].view,
@@ -75,8 +71,9 @@ static bool lay_water(scene *s)
                                     .cell_m = 0.5f,
                                     .low_m = {-16, -16},
                                     .high_m = {16, 16}};
-    host_renderer_set_ground(s->renderer, &maps);
-    return host_renderer_set_mirror(s->renderer, &s->target, 0, s->base.error, sizeof s->base.error);
+    host_renderer_set_ground(s->plate.renderer, &maps);
+    return host_renderer_set_mirror(s->plate.renderer, &s->plate.target, 0, s->plate.base.error,
+                                    sizeof s->plate.base.error);
 }
 
 static bool build(void *zeroed)
@@ -84,17 +81,9 @@ static bool build(void *zeroed)
     scene *s = zeroed;
     static const float level[4][3] = {{-9, 0, -9}, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}}, up[3] = {0, 1, 0};
     static const float upright[4][3] = {{-1, 0, 0}, {5, 0, 0}, {5, 3, 0}, {-1, 3, 0}}, out[3] = {0, 0, 1};
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
     const host_environment_def night = {.intensity = 1};
-    const bool made = host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
-                      host_renderer_create(device, &s->renderer, error, size) &&
-                      add_quad(s, &s->ground, level, up, 0.5f) && add_quad(s, &s->pane, upright, out, (float)GLOSS) &&
-                      host_environment_create(device, &night, &s->dark, error, size) &&
-                      host_renderer_set_environment(s->renderer, &s->dark, error, size) &&
-                      host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
-                      host_drawn_create(WIDTH, HEIGHT, &s->picture, error, size) && lay_water(s);
+    const bool made = plate_open(&s->plate, WIDTH, HEIGHT, &night) && add_quad(s, &s->ground, level, up, 0.5f) &&
+                      add_quad(s, &s->pane, upright, out, (float)GLOSS) && lay_water(s);
     if (made)
         s->pane.primitives[0].ground = false;
     return made;
@@ -108,16 +97,12 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->sums);
-    host_drawn_destroy(&s->picture);
-    host_renderer_destroy(&s->renderer);
-    host_environment_destroy(&s->base.device, &s->dark);
-    host_mesh_destroy(&s->base.device, &s->ground);
-    host_mesh_destroy(&s->base.device, &s->pane);
+    plate_close(&s->plate);
+    host_mesh_destroy(&s->plate.base.device, &s->ground);
+    host_mesh_destroy(&s->plate.base.device, &s->pane);
     for (int i = 0; i < MAPS; i++)
-        host_image_destroy(&s->base.device, &s->maps[i]);
-    host_target_destroy(&s->base.device, &s->target);
-    return fixture_tear_down(&s->base);
+        host_image_destroy(&s->plate.base.device, &s->maps[i]);
+    return fixture_tear_down(&s->plate.base);
 }
 
 /* ---- the highlight -------------------------------------------------------------------------------------------- */
@@ -190,7 +175,7 @@ static double drawn_sum(const scene *s)
     double sum = 0;
     for (int y = HEIGHT * 2 / 3 + 6; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
-            sum += (double)s->picture.color[4 * (y * WIDTH + x)];
+            sum += (double)s->plate.picture.color[4 * (y * WIDTH + x)];
     return sum;
 }
 
@@ -200,8 +185,9 @@ static void draw(scene *s, const virga_light *lamp)
     const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = FOV_DEG, .near_m = 0.1, .far_m = 100};
     host_camera camera;
     host_camera_at(&path, 0, WIDTH, HEIGHT, NULL, &camera);
-    host_renderer_set_lights(s->renderer, lamp, 1);
-    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+    host_renderer_set_lights(s->plate.renderer, lamp, 1);
+    assert_true(
+        fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera, &s->plate.picture));
 }
 
 /* The lamp moves by a texel and a half in steps of a fifth of one. Of a highlight that is not made as wide as the
@@ -257,7 +243,7 @@ static void ground_without_pores_is_darker_under_water(void **state)
         const double kept = 1 - enters / (INDEX * INDEX);
         const double expected =
             light * enters * albedo[i] / (1 - kept * albedo[i]) * (1 - reflected(cosine)) / (INDEX * INDEX * PI);
-        const double seen = (double)s->picture.color[4 * (ROW * WIDTH + WIDTH / 2) + i];
+        const double seen = (double)s->plate.picture.color[4 * (ROW * WIDTH + WIDTH / 2) + i];
         printf("albedo %.1f: %.4f, expected %.4f\n", albedo[i], seen, expected);
         assert_float_equal(seen / expected, 1, 0.03);
     }

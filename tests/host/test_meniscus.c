@@ -25,14 +25,9 @@ enum { SIDE = 128, CELLS = 64, STEPS = 40000, CASES = 4096, COLUMNS = 11, MAPS =
 #define AWAY_M      2.0 /* before the wall */
 
 typedef struct scene {
-    fixture base;
-    host_target target;
-    host_renderer *renderer;
-    host_environment dark;
+    plate_scene plate;
     host_mesh ground, wall;
     host_image maps[MAPS];
-    host_accumulator sums;
-    host_drawn picture;
 } scene;
 
 /* ---- the profile ---------------------------------------------------------------------------------------------- */
@@ -89,9 +84,9 @@ static void run_cases(scene *s, float *cases)
 {
     static const VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const host_bindings_def def = {.shape = {&type, 1, VK_SHADER_STAGE_COMPUTE_BIT}, .set_count = 1};
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error, bytes = (size_t)CASES * 12 * sizeof *cases;
+    host_device *device = &s->plate.base.device;
+    char *error = s->plate.base.error;
+    const size_t size = sizeof s->plate.base.error, bytes = (size_t)CASES * 12 * sizeof *cases;
     host_buffer data;
     host_bindings bindings;
     VkPipeline pipeline;
@@ -196,8 +191,9 @@ static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const
     }
     if (mesh == &s->wall)
         material.emissive[0] = material.emissive[1] = 1;
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error) &&
-           host_renderer_add(s->renderer, mesh, s->base.error, sizeof s->base.error);
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
+                            sizeof s->plate.base.error) &&
+           host_renderer_add(s->plate.renderer, mesh, s->plate.base.error, sizeof s->plate.base.error);
 }
 
 /* Level ground under the water of a map of wetness. */
@@ -212,7 +208,7 @@ static void set_water(scene *s, const host_image *wetness)
                                     .cell_m = 0.5f,
                                     .low_m = {-16, -16},
                                     .high_m = {16, 16}};
-    host_renderer_set_ground(s->renderer, &maps);
+    host_renderer_set_ground(s->plate.renderer, &maps);
 }
 
 /* 2 mm of water, and another map with 0.05 mm. */
@@ -225,13 +221,13 @@ static bool lay_water(scene *s)
         wet[i][1] = 0x4000;              /* 2 */
         damp[i][1] = 0x2a66;             /* 0.05 */
     }
-    if (!fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
-        !fixture_map(&s->base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, damp, 8, &s->maps[3]) ||
-        !fixture_map(&s->base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
-        !fixture_map(&s->base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
+    if (!fixture_map(&s->plate.base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &s->maps[0]) ||
+        !fixture_map(&s->plate.base, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, damp, 8, &s->maps[3]) ||
+        !fixture_map(&s->plate.base, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &s->maps[1]) ||
+        !fixture_map(&s->plate.base, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &s->maps[2]))
         return false;
     set_water(s, &s->maps[0]);
-    host_renderer_set_contact(s->renderer, true);
+    host_renderer_set_contact(s->plate.renderer, true);
     return true;
 }
 
@@ -241,17 +237,9 @@ static bool build(void *zeroed)
     static const float level[4][3] = {{-9, 0, -1}, {9, 0, -1}, {9, 0, 9}, {-9, 0, 9}};
     static const float upright[4][3] = {{-9, -0.2f, 0}, {9, -0.2f, 0}, {9, 3, 0}, {-9, 3, 0}};
     static const float up[3] = {0, 1, 0}, out[3] = {0, 0, 1};
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
     const host_environment_def night = {.intensity = 1};
-    const bool made = host_target_create(device, SIDE, SIDE, &s->target, error, size) &&
-                      host_renderer_create(device, &s->renderer, error, size) && add_quad(s, &s->ground, level, up) &&
-                      add_quad(s, &s->wall, upright, out) &&
-                      host_environment_create(device, &night, &s->dark, error, size) &&
-                      host_renderer_set_environment(s->renderer, &s->dark, error, size) &&
-                      host_accumulator_create(device, SIDE, SIDE, &s->sums, error, size) &&
-                      host_drawn_create(SIDE, SIDE, &s->picture, error, size) && lay_water(s);
+    const bool made = plate_open(&s->plate, SIDE, SIDE, &night) && add_quad(s, &s->ground, level, up) &&
+                      add_quad(s, &s->wall, upright, out) && lay_water(s);
     if (made)
         s->wall.primitives[0].ground = false;
     return made;
@@ -265,16 +253,12 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->sums);
-    host_drawn_destroy(&s->picture);
-    host_renderer_destroy(&s->renderer);
-    host_environment_destroy(&s->base.device, &s->dark);
-    host_mesh_destroy(&s->base.device, &s->ground);
-    host_mesh_destroy(&s->base.device, &s->wall);
+    plate_close(&s->plate);
+    host_mesh_destroy(&s->plate.base.device, &s->ground);
+    host_mesh_destroy(&s->plate.base.device, &s->wall);
     for (int i = 0; i < MAPS; i++)
-        host_image_destroy(&s->base.device, &s->maps[i]);
-    host_target_destroy(&s->base.device, &s->target);
-    return fixture_tear_down(&s->base);
+        host_image_destroy(&s->plate.base.device, &s->maps[i]);
+    return fixture_tear_down(&s->plate.base);
 }
 
 /* What the strip changes of the wall's light, in a channel: the integral over the height of the wall, mean of the
@@ -289,10 +273,11 @@ static double change_m(scene *s, double fov_deg, double offset_m, double x_m, in
     double sum = 0;
     host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
     for (int on = 0; on < 2; on++) {
-        host_renderer_set_meniscus(s->renderer, on);
-        assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+        host_renderer_set_meniscus(s->plate.renderer, on);
+        assert_true(fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera,
+                                  &s->plate.picture));
         for (int i = 0; !on && i < SIDE * SIDE; i++)
-            before[i] = s->picture.color[4 * i + channel];
+            before[i] = s->plate.picture.color[4 * i + channel];
     }
     for (int row = 0; row < SIDE; row++) {
         double edge_m[2];
@@ -302,7 +287,7 @@ static double change_m(scene *s, double fov_deg, double offset_m, double x_m, in
             continue; /* ground */
         for (int column = SIDE / 2 - COLUMNS / 2; column <= SIDE / 2 + COLUMNS / 2; column++) {
             const int i = row * SIDE + column;
-            sum += (edge_m[0] - edge_m[1]) * (double)(s->picture.color[4 * i + channel] - before[i]) / COLUMNS;
+            sum += (edge_m[0] - edge_m[1]) * (double)(s->plate.picture.color[4 * i + channel] - before[i]) / COLUMNS;
         }
     }
     return sum;
@@ -374,7 +359,7 @@ static void a_strip_mirrors_a_lamp_as_rays_do(void **state)
     const double middle[3] = {0, 3, 4};
     profile *p = malloc(sizeof *p);
     integrate(PI / 2 - ANGLE, p);
-    host_renderer_set_lights(s->renderer, &lamp, 1);
+    host_renderer_set_lights(s->plate.renderer, &lamp, 1);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 2; k++) {
             const double expected_m = mirrored_ball_m(p, middle, 40, at_m[i]);
@@ -383,7 +368,7 @@ static void a_strip_mirrors_a_lamp_as_rays_do(void **state)
                    1e3 * expected_m);
             assert_float_equal(found_m / expected_m, 1, 0.18);
         }
-    host_renderer_set_lights(s->renderer, NULL, 0);
+    host_renderer_set_lights(s->plate.renderer, NULL, 0);
     free(p);
 }
 
@@ -392,9 +377,9 @@ static void a_lamp_behind_the_wall_is_not_mirrored(void **state)
 {
     scene *s = *state;
     const virga_light lamp = {.position_m = {0, 3, -1}, .intensity = {0, 0, 40}};
-    host_renderer_set_lights(s->renderer, &lamp, 1);
+    host_renderer_set_lights(s->plate.renderer, &lamp, 1);
     assert_float_equal(1e3 * change_m(s, 4, 0, 0, 2), 0, 1e-5);
-    host_renderer_set_lights(s->renderer, NULL, 0);
+    host_renderer_set_lights(s->plate.renderer, NULL, 0);
 }
 
 static void nothing_climbs_from_what_is_only_wet(void **state)

@@ -27,13 +27,8 @@ static const host_camera_key keys[2] = {
 static const host_camera_path path = {.keys = keys, .count = 2, .fov_deg = 60.0, .near_m = 0.1, .far_m = 100.0};
 
 typedef struct scene {
-    fixture base;
-    host_target target;
-    host_renderer *renderer;
-    host_environment environment;
+    plate_scene plate;
     host_mesh plane, post, wall, bar;
-    host_accumulator sums;
-    host_drawn picture;
     float color[WIDTH * HEIGHT * 4]; /* of the picture before, see keep */
 } scene;
 
@@ -48,7 +43,8 @@ static bool make_quad(scene *s, const float corners[4][3], const float normal[3]
         memcpy(v[i].position, corners[i], sizeof v[i].position);
         memcpy(v[i].normal, normal, sizeof v[i].normal);
     }
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, mesh, s->base.error, sizeof s->base.error);
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
+                            sizeof s->plate.base.error);
 }
 
 static bool make_meshes(scene *s)
@@ -67,21 +63,15 @@ static bool make_meshes(scene *s)
 static bool build(void *zeroed)
 {
     scene *s = zeroed;
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
+    char *error = s->plate.base.error;
+    const size_t size = sizeof s->plate.base.error;
     host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
-    return host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
-           host_renderer_create(device, &s->renderer, error, size) &&
-           host_renderer_set_reuse(s->renderer, &s->target, error, size) && make_meshes(s) &&
-           host_renderer_add(s->renderer, &s->plane, error, size) &&
-           host_renderer_add(s->renderer, &s->post, error, size) &&
-           host_renderer_add(s->renderer, &s->wall, error, size) &&
-           host_renderer_add(s->renderer, &s->bar, error, size) &&
-           host_environment_create(device, &white, &s->environment, error, size) &&
-           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
-           host_accumulator_create(device, WIDTH, HEIGHT, &s->sums, error, size) &&
-           host_drawn_create(WIDTH, HEIGHT, &s->picture, error, size);
+    return plate_open(&s->plate, WIDTH, HEIGHT, &white) &&
+           host_renderer_set_reuse(s->plate.renderer, &s->plate.target, error, size) && make_meshes(s) &&
+           host_renderer_add(s->plate.renderer, &s->plane, error, size) &&
+           host_renderer_add(s->plate.renderer, &s->post, error, size) &&
+           host_renderer_add(s->plate.renderer, &s->wall, error, size) &&
+           host_renderer_add(s->plate.renderer, &s->bar, error, size);
 }
 
 static int set_up(void **state)
@@ -92,16 +82,12 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->sums);
-    host_drawn_destroy(&s->picture);
-    host_renderer_destroy(&s->renderer);
-    host_environment_destroy(&s->base.device, &s->environment);
-    host_mesh_destroy(&s->base.device, &s->plane);
-    host_mesh_destroy(&s->base.device, &s->post);
-    host_mesh_destroy(&s->base.device, &s->wall);
-    host_mesh_destroy(&s->base.device, &s->bar);
-    host_target_destroy(&s->base.device, &s->target);
-    return fixture_tear_down(&s->base);
+    plate_close(&s->plate);
+    host_mesh_destroy(&s->plate.base.device, &s->plane);
+    host_mesh_destroy(&s->plate.base.device, &s->post);
+    host_mesh_destroy(&s->plate.base.device, &s->wall);
+    host_mesh_destroy(&s->plate.base.device, &s->bar);
+    return fixture_tear_down(&s->plate.base);
 }
 
 /* How a picture is drawn. */
@@ -126,29 +112,31 @@ static void draw_one(scene *s, const way *w, uint32_t i)
     now.shares = w->shares;
     now.follows = w->shares > 1 && i % w->shares != 0;
     now.part = w->part;
-    host_renderer_set_lights(s->renderer, &lamp, w->shines || (w->flashes && i % SHARE == 0));
-    assert_true(host_begin_frame(&s->base.device, &cmd, s->base.error, sizeof s->base.error));
-    assert_true(host_renderer_plate(s->renderer, cmd, &s->target, &now, &before, s->base.error, sizeof s->base.error));
-    host_target_begin_layer(&s->target, cmd);
-    host_target_end_layer(&s->target, cmd);
-    assert_true(host_accumulator_add(&s->sums, cmd, &s->target, false, s->base.error, sizeof s->base.error));
+    host_renderer_set_lights(s->plate.renderer, &lamp, w->shines || (w->flashes && i % SHARE == 0));
+    assert_true(host_begin_frame(&s->plate.base.device, &cmd, s->plate.base.error, sizeof s->plate.base.error));
+    assert_true(host_renderer_plate(s->plate.renderer, cmd, &s->plate.target, &now, &before, s->plate.base.error,
+                                    sizeof s->plate.base.error));
+    host_target_begin_layer(&s->plate.target, cmd);
+    host_target_end_layer(&s->plate.target, cmd);
+    assert_true(host_accumulator_add(&s->plate.sums, cmd, &s->plate.target, false, s->plate.base.error,
+                                     sizeof s->plate.base.error));
     if (i + 1 == SAMPLES)
-        host_accumulator_copy_out(&s->sums, cmd, &s->target);
-    assert_true(host_submit(&s->base.device, s->base.error, sizeof s->base.error));
+        host_accumulator_copy_out(&s->plate.sums, cmd, &s->plate.target);
+    assert_true(host_submit(&s->plate.base.device, s->plate.base.error, sizeof s->plate.base.error));
 }
 
 static void draw(scene *s, way w)
 {
-    host_accumulator_reset(&s->sums);
+    host_accumulator_reset(&s->plate.sums);
     for (uint32_t i = 0; i < SAMPLES; i++)
         draw_one(s, &w, i);
-    assert_true(host_wait(&s->base.device, s->base.error, sizeof s->base.error));
-    host_accumulator_finish(&s->sums, &s->target, &s->picture);
+    assert_true(host_wait(&s->plate.base.device, s->plate.base.error, sizeof s->plate.base.error));
+    host_accumulator_finish(&s->plate.sums, &s->plate.target, &s->plate.picture);
 }
 
 static void keep(scene *s)
 {
-    memcpy(s->color, s->picture.color, sizeof s->color);
+    memcpy(s->color, s->plate.picture.color, sizeof s->color);
 }
 
 static float red(const float *color, int x, int y)
@@ -165,11 +153,11 @@ static void flat_surfaces_are_shaded_once(void **state)
 {
     scene *s = *state;
     draw(s, (way){.shares = 1});
-    const float dark = red(s->picture.color, FLAT_X, FLAT_Y);
+    const float dark = red(s->plate.picture.color, FLAT_X, FLAT_Y);
     draw(s, (way){.shares = 1, .flashes = true});
-    const float quarter = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    const float quarter = red(s->plate.picture.color, FLAT_X, FLAT_Y) - dark;
     draw(s, (way){.shares = SHARE, .flashes = true});
-    const float all = red(s->picture.color, FLAT_X, FLAT_Y) - dark;
+    const float all = red(s->plate.picture.color, FLAT_X, FLAT_Y) - dark;
     printf("light of the lamp: %.5f in a quarter, %.5f in all\n", (double)quarter, (double)all);
     assert_true(quarter > 0.005f);
     assert_float_equal(all, 4.0f * quarter, 0.001);
@@ -182,7 +170,7 @@ static void what_moves_is_shaded_each_time(void **state)
     draw(s, (way){.shares = 1, .flashes = true});
     keep(s);
     draw(s, (way){.shares = SHARE, .flashes = true, .part = 1.0f});
-    assert_float_equal(red(s->picture.color, FLAT_X, FLAT_Y), red(s->color, FLAT_X, FLAT_Y), 1e-6);
+    assert_float_equal(red(s->plate.picture.color, FLAT_X, FLAT_Y), red(s->color, FLAT_X, FLAT_Y), 1e-6);
 }
 
 /* Most sub-frames miss a post that is narrower than a pixel, and often the first of a group. Those that see it draw
@@ -196,7 +184,7 @@ static void narrow_things_are_not_missed(void **state)
     draw(s, (way){.shares = SHARE});
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
-            most = fmaxf(most, fabsf(red(s->picture.color, x, y) - red(s->color, x, y)));
+            most = fmaxf(most, fabsf(red(s->plate.picture.color, x, y) - red(s->color, x, y)));
             darkest = y > HEIGHT * 6 / 10 ? fminf(darkest, red(s->color, x, y)) : darkest;
         }
     printf("at most %.5f apart; the post leaves %.3f\n", (double)most, (double)darkest);
@@ -213,8 +201,8 @@ static void edges_keep_all_sub_frames(void **state)
     keep(s);
     draw(s, (way){.shares = SHARE});
     for (int y = 1; y < HEIGHT - 1; y++) {
-        const float sky = red(s->picture.color, x, 1), plane = red(s->picture.color, x, HEIGHT - 2);
-        const float now = (red(s->picture.color, x, y) - plane) / (sky - plane);
+        const float sky = red(s->plate.picture.color, x, 1), plane = red(s->plate.picture.color, x, HEIGHT - 2);
+        const float now = (red(s->plate.picture.color, x, y) - plane) / (sky - plane);
         const float then = (red(s->color, x, y) - plane) / (sky - plane);
         assert_float_equal(now, then, 0.25 / SAMPLES);
     }
@@ -233,7 +221,7 @@ static void edges_take_what_was_shaded_once(void **state)
             const float wall = red(s->color, EDGE_X + 4, y), beside = red(s->color, EDGE_X - 4, y);
             const float share = (red(s->color, x, y) - beside) / (wall - beside);
             edge = fmaxf(edge, fminf(share, 1.0f - share));
-            assert_float_equal(red(s->picture.color, x, y), red(s->color, x, y), 0.004);
+            assert_float_equal(red(s->plate.picture.color, x, y), red(s->color, x, y), 0.004);
         }
     printf("a pixel at the edge is %.3f of one side\n", (double)edge);
     assert_true(edge > 0.1f);
@@ -250,7 +238,7 @@ static void things_on_a_surface_are_not_missed(void **state)
     for (int y = WALL_Y - 3; y < WALL_Y + 3; y++)
         for (int x = BAR_X - 2; x < BAR_X + 3; x++) {
             darkest = fminf(darkest, red(s->color, x, y) / red(s->color, BAR_X + 4, y));
-            most = fmaxf(most, fabsf(red(s->picture.color, x, y) - red(s->color, x, y)));
+            most = fmaxf(most, fabsf(red(s->plate.picture.color, x, y) - red(s->color, x, y)));
         }
     printf("the bar leaves %.3f of the wall, at most %.5f apart\n", (double)darkest, (double)most);
     assert_true(darkest < 0.95f);
@@ -260,9 +248,9 @@ static void things_on_a_surface_are_not_missed(void **state)
 static float light_at(scene *s, way w, int x, int y)
 {
     draw(s, (way){.shares = 1});
-    const float dark = red(s->picture.color, x, y);
+    const float dark = red(s->plate.picture.color, x, y);
     draw(s, w);
-    return red(s->picture.color, x, y) - dark;
+    return red(s->plate.picture.color, x, y) - dark;
 }
 
 /* The wall moves: each sub-frame is shaded on it, and one in four on the plane before it. */

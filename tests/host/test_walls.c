@@ -22,13 +22,8 @@ static const host_camera_key key = {.position_m = {0, 2, 8}, .look_at_m = {0, 2,
 static const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 45, .near_m = 0.1, .far_m = 100};
 
 typedef struct scene {
-    fixture base;
-    host_target target;
-    host_renderer *renderer;
-    host_environment environment;
+    plate_scene plate;
     host_mesh meshes[3]; /* of plaster, the awning, and a sheet of metal in the upper right */
-    host_accumulator sums;
-    host_drawn picture;
 } scene;
 
 static bool add_quad(scene *s, uint32_t index, const float corners[4][3], const float normal[3], float roughness,
@@ -46,10 +41,10 @@ static bool add_quad(scene *s, uint32_t index, const float corners[4][3], const 
         memcpy(v[i].position, corners[i], sizeof v[i].position);
         memcpy(v[i].normal, normal, sizeof v[i].normal);
     }
-    char *error = s->base.error;
-    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, &s->meshes[index], error,
-                            sizeof s->base.error) &&
-           host_renderer_add(s->renderer, &s->meshes[index], error, sizeof s->base.error);
+    char *error = s->plate.base.error;
+    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, &s->meshes[index], error,
+                            sizeof s->plate.base.error) &&
+           host_renderer_add(s->plate.renderer, &s->meshes[index], error, sizeof s->plate.base.error);
 }
 
 static bool build(void *zeroed)
@@ -59,17 +54,9 @@ static bool build(void *zeroed)
     static const float awning[4][3] = {{-5, 3, 0}, {0, 3, 0}, {0, 3, 1}, {-5, 3, 1}};
     static const float sheet[4][3] = {{1, 3.2f, 0.01f}, {3, 3.2f, 0.01f}, {3, 4.8f, 0.01f}, {1, 4.8f, 0.01f}};
     static const float out[3] = {0, 0, 1}, up[3] = {0, 1, 0};
-    host_device *device = &s->base.device;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
     const host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1};
-    return host_target_create(device, SIDE, SIDE, &s->target, error, size) &&
-           host_renderer_create(device, &s->renderer, error, size) && add_quad(s, 0, wall, out, 0.9f, 0) &&
-           add_quad(s, 1, awning, up, 0.9f, 0) && add_quad(s, 2, sheet, out, 0.5f, 1) &&
-           host_environment_create(device, &white, &s->environment, error, size) &&
-           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
-           host_accumulator_create(device, SIDE, SIDE, &s->sums, error, size) &&
-           host_drawn_create(SIDE, SIDE, &s->picture, error, size);
+    return plate_open(&s->plate, SIDE, SIDE, &white) && add_quad(s, 0, wall, out, 0.9f, 0) &&
+           add_quad(s, 1, awning, up, 0.9f, 0) && add_quad(s, 2, sheet, out, 0.5f, 1);
 }
 
 static int set_up(void **state)
@@ -80,24 +67,21 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     scene *s = *state;
-    host_accumulator_destroy(&s->sums);
-    host_drawn_destroy(&s->picture);
-    host_renderer_destroy(&s->renderer);
-    host_environment_destroy(&s->base.device, &s->environment);
+    plate_close(&s->plate);
     for (int i = 0; i < 3; i++)
-        host_mesh_destroy(&s->base.device, &s->meshes[i]);
-    host_target_destroy(&s->base.device, &s->target);
-    return fixture_tear_down(&s->base);
+        host_mesh_destroy(&s->plate.base.device, &s->meshes[i]);
+    return fixture_tear_down(&s->plate.base);
 }
 
 static void draw(scene *s, const virga_walls *walls)
 {
     host_camera camera;
-    char *error = s->base.error;
-    const size_t size = sizeof s->base.error;
+    char *error = s->plate.base.error;
+    const size_t size = sizeof s->plate.base.error;
     host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
-    assert_true(host_renderer_set_walls(s->renderer, walls, error, size));
-    assert_true(fixture_plate(&s->base, s->renderer, &s->target, &s->sums, &camera, &s->picture));
+    assert_true(host_renderer_set_walls(s->plate.renderer, walls, error, size));
+    assert_true(
+        fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera, &s->plate.picture));
 }
 
 /* Rain along a line that goes so far towards the wall, per metre of fall. */
@@ -119,7 +103,7 @@ static int row_of(double y)
 static float light(const scene *s, double x, double y)
 {
     const int column = SIDE - row_of(2 + x);
-    return s->picture.color[4 * (row_of(y) * SIDE + column) + 1];
+    return s->plate.picture.color[4 * (row_of(y) * SIDE + column) + 1];
 }
 
 /* Where the light of the dry wall, from the awning down, gives way to that of the wet one. */
@@ -127,7 +111,7 @@ static double edge_m(const scene *s, const float *dry, double x)
 {
     const int column = SIDE - row_of(2 + x);
     int row = row_of(AWNING_M) + 3;
-    while (row < SIDE - 1 && s->picture.color[4 * (row * SIDE + column) + 1] > 0.85f * dry[row * SIDE + column])
+    while (row < SIDE - 1 && s->plate.picture.color[4 * (row * SIDE + column) + 1] > 0.85f * dry[row * SIDE + column])
         row++;
     return 2 + (SIDE / 2.0 - row) / (SIDE / 2.0) * 8 * tan(22.5 * 3.14159265358979 / 180);
 }
@@ -137,7 +121,7 @@ static float *dry_picture(scene *s)
     float *dry = malloc(SIDE * SIDE * sizeof *dry);
     draw(s, NULL);
     for (int i = 0; i < SIDE * SIDE; i++)
-        dry[i] = s->picture.color[4 * i + 1];
+        dry[i] = s->plate.picture.color[4 * i + 1];
     return dry;
 }
 
@@ -170,7 +154,7 @@ static void the_edge_of_shelter_is_soft_where_slants_are_spread(void **state)
         draw(s, &walls);
         for (int row = row_of(AWNING_M) + 3; row < row_of(0.1); row++)
             for (int column = 20; column < 50; column++) {
-                const float share = s->picture.color[4 * (row * SIDE + column) + 1] / dry[row * SIDE + column];
+                const float share = s->plate.picture.color[4 * (row * SIDE + column) + 1] / dry[row * SIDE + column];
                 between[soft] += share > 0.75f && share < 0.95f;
             }
     }
@@ -200,18 +184,18 @@ static void a_film_makes_metal_shine(void **state)
 {
     scene *s = *state;
     const virga_light lamp = {.position_m = {2, 6, 8}, .intensity = {400, 400, 400}};
-    host_renderer_set_lights(s->renderer, &lamp, 1);
+    host_renderer_set_lights(s->plate.renderer, &lamp, 1);
     float *dry = dry_picture(s), brightest[2] = {0, 0};
     const virga_walls walls = rain_of(0.5f, 0, 0.05f);
     draw(s, &walls);
     for (double y = 3.3; y < 4.7; y += 0.05) {
         const size_t i = (size_t)(row_of(y) * SIDE + SIDE - row_of(4));
         brightest[0] = fmaxf(brightest[0], dry[i]);
-        brightest[1] = fmaxf(brightest[1], s->picture.color[4 * i + 1]);
+        brightest[1] = fmaxf(brightest[1], s->plate.picture.color[4 * i + 1]);
     }
     printf("metal: %.3f dry, %.3f wet\n", (double)brightest[0], (double)brightest[1]);
     assert_true(brightest[1] > 1.3f * brightest[0]);
-    host_renderer_set_lights(s->renderer, NULL, 0);
+    host_renderer_set_lights(s->plate.renderer, NULL, 0);
     free(dry);
 }
 

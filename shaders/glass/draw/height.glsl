@@ -214,7 +214,7 @@ vec2 summed(ivec4 sum, ivec2 drops)
     if (!HEIGHTS)
         return vec2(all, 0.0);
     if (FOR_GPU && sum == ivec4(0))
-        return vec2(0.0); // as it would come out: no ball reaches most texels of film
+        return vec2(0.0); // what follows gives the same, and no ball reaches most texels of film
     const float density = outline_density(sum, drops), within = mix(density, all, smoothstep(0.5, 1.0, density));
     const float neck = float(sum.x) / float(max(sum.y, 1)) / MAX_INVERSE * neck_profile(within);
     const float high = sqrt(float(sum.z) / SQUARED), above = max(neck - high, 0.0);

@@ -1,7 +1,7 @@
 // height_film.glsl - what film adds to a tile of the height map: the sheet on its cells, beads with a shape (added as
 // balls like those of drops), and the mist map. Include it after the buffers, texels and add() of height.glsl.
 
-// Thickness of the sheet on a cell. There without a branch: inside one software Vulkan reads lane by lane.
+// Thickness of the sheet on a cell. Software Vulkan has no branch here: inside one it reads lane by lane.
 float sheet_m(ivec2 cell)
 {
     const ivec2 last = ivec2(look.pane.columns, look.pane.rows) - 1, clamped = clamp(cell, ivec2(0), last);

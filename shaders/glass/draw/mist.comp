@@ -35,8 +35,8 @@ bool has_water(uvec2 cell)
     return inside && film[number] != 0u && (!MASKED || (surface[number] & 0x1000000u) != 0u);
 }
 
-// Mist of a cell, and whether it has film with a shape. Without branches there: inside one, software Vulkan reads
-// lane by lane.
+// Mist of a cell, and whether it has film with a shape. Software Vulkan has no branches here: inside one it reads lane
+// by lane.
 float cell_mist(uvec2 cell, out bool has_shape)
 {
     const bool inside = cell.x < look.pane.columns && cell.y < look.pane.rows;
