@@ -391,6 +391,58 @@ static void nothing_climbs_from_what_is_only_wet(void **state)
     assert_true(change_m(s, 15, 0, 0, 0) < 0);
 }
 
+/* The wall from near by, around a height. */
+static const float *draw_foot(scene *s, double at_m, float *kept)
+{
+    const host_camera_key key = {.position_m = {0, EYE_M, AWAY_M}, .look_at_m = {0, at_m, 0}};
+    const host_camera_path path = {.keys = &key, .count = 1, .fov_deg = 15, .near_m = 0.1, .far_m = 100};
+    const float *color = s->plate.picture.color;
+    host_camera camera;
+    host_camera_at(&path, 0, SIDE, SIDE, NULL, &camera);
+    assert_true(
+        fixture_plate(&s->plate.base, s->plate.renderer, &s->plate.target, &s->plate.sums, &camera, &s->plate.picture));
+    if (kept)
+        memcpy(kept, color, (size_t)SIDE * SIDE * 4 * sizeof *color);
+    return color;
+}
+
+/* What is told from triangles has smaller shaders: the wall is too steep for water, the ground is level, and no water
+ * climbs what begins higher. Each is drawn with the shader that has everything, and then with its own. */
+static void smaller_shaders_come_to_the_same_bits(void **state)
+{
+    enum { BYTES = SIDE * SIDE * 4 * sizeof(float) };
+    static float all[SIDE * SIDE * 4], above[SIDE * SIDE * 4];
+    static float feet[2] = {0.5f, 0.5f};
+    scene *s = *state;
+    const virga_light lamp = {.position_m = {0.3, 1, 1}, .intensity = {0, 0, 4}};
+    host_primitive *wall = &s->wall.primitives[0], *ground = &s->ground.primitives[0];
+    host_renderer_set_meniscus(s->plate.renderer, true);
+    host_renderer_set_lights(s->plate.renderer, &lamp, 1);
+    wall->level_count = wall->index_count;
+    draw_foot(s, 0, all);
+    draw_foot(s, 0.5, above);
+    wall->level_count = 0;
+    assert_memory_equal(draw_foot(s, 0, NULL), all, BYTES);
+    ground->ground = true;
+    draw_foot(s, 0, all);
+    ground->ground_count = ground->index_count;
+    assert_memory_equal(draw_foot(s, 0, NULL), all, BYTES);
+    ground->ground = false; /* a scene says so, after it was loaded */
+    draw_foot(s, 0, all);
+    ground->ground_count = 0;
+    assert_memory_equal(draw_foot(s, 0, NULL), all, BYTES);
+    wall->still = true;
+    s->wall.feet = feet;
+    assert_memory_equal(draw_foot(s, 0.5, NULL), above, BYTES);
+    assert_true(memcmp(draw_foot(s, 0, NULL), all, BYTES) != 0); /* the strip would be gone: it is that shader */
+    s->wall.feet = NULL;
+    wall->still = false;
+    wall->level_count = wall->index_count;
+    ground->ground = false;
+    ground->ground_count = 0;
+    host_renderer_set_lights(s->plate.renderer, NULL, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -400,6 +452,7 @@ int main(void)
         cmocka_unit_test(a_strip_mirrors_a_lamp_as_rays_do),
         cmocka_unit_test(a_lamp_behind_the_wall_is_not_mirrored),
         cmocka_unit_test(nothing_climbs_from_what_is_only_wet),
+        cmocka_unit_test(smaller_shaders_come_to_the_same_bits),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

@@ -41,8 +41,9 @@ static int tear_down(void **state)
     fixture *f = *state;
     uint32_t wrong = fixture_end(f);
     free(f);
-    static const char *const names[] = {"plain.obj",   "hurt.gltf",  "empty.obj", "text.glb",  "picture.obj",
-                                        "picture.mtl", "lamps.gltf", "lamps.glb", "plane.obj", "ridge.obj"};
+    static const char *const names[] = {"plain.obj",   "hurt.gltf",   "empty.obj",  "text.glb",
+                                        "picture.obj", "picture.mtl", "lamps.gltf", "lamps.glb",
+                                        "plane.obj",   "ridge.obj",   "feet.obj"};
     char path[256];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -348,6 +349,58 @@ static void ground_has_a_plane(void **state)
     }
 }
 
+static double area_of(const host_vertex *v, const uint32_t *corners)
+{
+    double u[3], w[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)v[corners[1]].position[k] - (double)v[corners[0]].position[k];
+        w[k] = (double)v[corners[2]].position[k] - (double)v[corners[0]].position[k];
+    }
+    return 0.5 * sqrt(pow(u[1] * w[2] - u[2] * w[1], 2) + pow(u[2] * w[0] - u[0] * w[2], 2) +
+                      pow(u[0] * w[1] - u[1] * w[0], 2));
+}
+
+/* A road, two walls of 3 m that meet in a corner, and a bridge, which is less than 2 % of the ground. The walls are cut
+ * 0.15 m above the road, with points at the corner that both have, and lose no area; what is lower comes first. */
+static void walls_are_cut_above_the_ground(void **state)
+{
+    fixture *f = *state;
+    const char *text = "o road\nv -5 0 -5\nv 5 0 -5\nv 5 0 5\nv -5 0 5\nf 4 3 2 1\n"
+                       "o house\nv -4 0 -4\nv 3 0 -4\nv 3 3 -4\nv -4 3 -4\nf 5 6 7 8\n"
+                       "v 3 0 4\nv 3 3 4\nf 6 9 10 7\n"
+                       "o bridge_road\nv 4 5 0\nv 5 5 0\nv 5 5 1\nv 4 5 1\nf 14 13 12 11\n";
+    host_mesh mesh;
+    host_vertex *v;
+    uint32_t *indices, corner_points = 0, low_count = 0;
+    double area = 0;
+    if (!host_mesh_load_kept(&f->device, write_file("feet.obj", text), NULL, &mesh, &v, &indices, f->error,
+                             sizeof f->error))
+        fail_msg("%s", f->error);
+    for (uint32_t p = 0; p < mesh.primitive_count; p++) {
+        const host_primitive *primitive = &mesh.primitives[p];
+        const uint32_t first = primitive->first_index, steep = primitive->level_count, count = primitive->index_count;
+        assert_int_equal(primitive->ground_count, primitive->ground ? count : 0);
+        assert_int_equal(steep, primitive->ground ? count : 0);
+        low_count += host_mesh_low_count(&mesh, primitive, steep, count - steep, 0.14f);
+        for (uint32_t i = first + steep; i < first + count; i += 3) {
+            const float *heights[3] = {v[indices[i]].position, v[indices[i + 1]].position, v[indices[i + 2]].position};
+            const float foot = fminf(heights[0][1], fminf(heights[1][1], heights[2][1]));
+            const float top = fmaxf(heights[0][1], fmaxf(heights[1][1], heights[2][1]));
+            assert_true(foot == mesh.feet[i / 3] && (top <= 0.15f || foot >= 0.15f));
+            assert_true(i == first + steep || mesh.feet[i / 3 - 1] <= foot);
+            area += area_of(v, &indices[i]);
+            for (int k = 0; k < 3; k++)
+                corner_points += heights[k][1] == 0.15f && heights[k][0] == 3.0f && heights[k][2] == -4.0f;
+        }
+    }
+    printf("%u of the walls' indices are low, %u corners in their corner, %.6f m2\n", low_count, corner_points, area);
+    assert_true(low_count > 0 && low_count < 24 && corner_points >= 4);
+    assert_float_equal(area, 7 * 3 + 8 * 3, 1e-4);
+    free(v);
+    free(indices);
+    host_mesh_destroy(&f->device, &mesh);
+}
+
 static void materials_have_names(void **state)
 {
     (void)state;
@@ -371,6 +424,7 @@ int main(void)
         cmocka_unit_test(joints_are_beside_the_color),
         cmocka_unit_test(opaque_materials_that_say_so_have_joints),
         cmocka_unit_test(ground_has_a_plane),
+        cmocka_unit_test(walls_are_cut_above_the_ground),
         cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));

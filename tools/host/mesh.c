@@ -131,7 +131,7 @@ static bool run_build(host_mesh_build *build, const float world_from_model[12])
     if (!host_mesh_build_materials(build) || !host_mesh_build_geometry(build, world_from_model))
         return false;
     find_covers(build);
-    return upload_pictures(build) && host_mesh_sort_level(build) &&
+    return upload_pictures(build) && host_mesh_cut_feet(build) && host_mesh_sort_level(build) &&
            upload_geometry(build->device, build->mesh, build->vertices, build->vertex_count, build->indices,
                            build->index_count, build->error, build->error_size);
 }
@@ -285,6 +285,7 @@ void host_mesh_destroy(host_device *device, host_mesh *mesh)
     free(mesh->textures);
     free(mesh->materials);
     free(mesh->primitives);
+    free(mesh->feet);
     free(mesh->path);
     memset(mesh, 0, sizeof *mesh);
 }

@@ -37,7 +37,8 @@ typedef struct host_material {
 typedef struct host_primitive {
     char name[96]; /* of the mesh, or of its node */
     uint32_t first_index, index_count;
-    uint32_t level_count;  /* the first indices: triangles that water may lie on. The others are too steep for it */
+    uint32_t level_count;  /* the first indices: triangles that water may lie on. The others are too steep for it ... */
+    uint32_t ground_count; /* ... the first of the first: of ground so level that no rain is driven against it */
     bool still;            /* its vertices do not move: the bounds hold */
     uint32_t material;     /* into host_mesh::materials */
     uint32_t surface;      /* host_guess_material of its names: what drops land on */
@@ -55,6 +56,9 @@ typedef struct host_mesh {
     uint32_t vertex_count, index_count;
     host_primitive *primitives;
     uint32_t primitive_count;
+    /* Of triangle i (indices from 3 i on): its lowest height (m); not of glass. In a primitive it rises from one
+     * triangle to the next of the same kind. NULL: not known */
+    float *feet;
     host_material *materials;
     uint32_t material_count;
     host_image *textures;
@@ -78,6 +82,11 @@ bool host_mesh_load_kept(host_device *device, const char *path, const float worl
 bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
                       uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,
                       size_t error_size);
+
+/* How many of `count` indices of a primitive, from `first` on, are of triangles that begin below a height: those come
+ * first. The indices are all of one kind: see host_primitive. If it is not known, all or none, by the mesh's bounds. */
+uint32_t host_mesh_low_count(const host_mesh *mesh, const host_primitive *primitive, uint32_t first, uint32_t count,
+                             float height_m);
 
 /* Records an update of all vertices. Outside a render pass. */
 void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices);

@@ -26,7 +26,11 @@ typedef struct host_mesh_build {
 /* Fills vertices, indices and primitives from all nodes of the scene. */
 bool host_mesh_build_geometry(host_mesh_build *build, const float world_from_model[12]);
 
-/* Sorts the indices of each primitive: see host_primitive.level_count. */
+/* Cuts triangles in two where they rise through HOST_CLIMB_CUT_M above most of the model's ground, unless it has none:
+ * what water may climb is then a small part of a wall. */
+bool host_mesh_cut_feet(host_mesh_build *build);
+
+/* Sorts the indices of each primitive, see host_primitive.level_count, the steep ones by host_mesh.feet. */
 bool host_mesh_sort_level(host_mesh_build *build);
 
 /* Fills materials and pictures. */

@@ -7,6 +7,7 @@
 #include "renderer_internal.h"
 
 #define MIRROR_STEP_PX  1.0
+#define CLIMB_NEAR_M    (HOST_CONTACT_NEAR_M + HOST_CONTACT_STEP_M) /* the map moves in steps */
 #define CONTACT_PLANE_M 0.5   /* ground that is farther off its mean plane has hills */
 #define MIN_ROUGHNESS   0.04f /* below, highlights of point lights fall between pixels */
 
@@ -127,23 +128,67 @@ static void draw_indices(drawing *d, host_pipeline kind, bool two_sided, uint32_
         vkCmdDrawIndexed(d->cmd, count, 1, first, 0, 0);
 }
 
-/* Where no water can lie a smaller shader comes to the same bits. */
-static void draw_primitive(drawing *d, const host_primitive *primitive, const host_material *material,
-                           host_pipeline kind)
+/* Whether the contact map, where the ground's height is looked up for water that climbs, may reach a primitive. */
+static bool is_near(const host_renderer *r, const host_mesh *mesh, const host_primitive *primitive)
 {
+    const float *low = primitive->still ? primitive->low : mesh->low;
+    const float *high = primitive->still ? primitive->high : mesh->high;
+    bool near = true;
+    for (int axis = 0; axis < 3; axis += 2)
+        near = near && (double)low[axis] < r->eye_m[axis] + CLIMB_NEAR_M &&
+               (double)high[axis] > r->eye_m[axis] - CLIMB_NEAR_M;
+    return near;
+}
+
+/* Triangles of one kind: those that begin near the ground, and the others, of both pipelines. */
+static void draw_by_feet(drawing *d, const host_mesh *mesh, const host_primitive *primitive, uint32_t first,
+                         uint32_t count, const host_pipeline kinds[2])
+{
+    const host_renderer *r = d->renderer;
+    const bool two_sided = mesh->materials[primitive->material].two_sided;
+    uint32_t low = 0;
+    if (r->foot_m > -DBL_MAX && is_near(r, mesh, primitive))
+        low = host_mesh_low_count(mesh, primitive, first, count, (float)r->foot_m);
+    draw_indices(d, kinds[0], two_sided, primitive->first_index + first, low);
+    draw_indices(d, kinds[1], two_sided, primitive->first_index + first + low, count - low);
+}
+
+/* Smaller shaders come to the same bits where it is told from the triangles what they have no need for. */
+static void shade_primitive(drawing *d, const host_mesh *mesh, const host_primitive *primitive,
+                            const host_material *material)
+{
+    static const host_pipeline level_kinds[2] = {HOST_PIPELINE_FOOT, HOST_PIPELINE_SHADE};
+    static const host_pipeline steep_kinds[2] = {HOST_PIPELINE_DRY_FOOT, HOST_PIPELINE_DRY};
     const uint32_t first = primitive->first_index, count = primitive->index_count;
-    if (kind == HOST_PIPELINE_SHADE && material->passes > 0 && !is_mirror(d)) {
-        draw_indices(d, HOST_PIPELINE_CLOTH, material->two_sided, first, count);
+    const uint32_t ground = primitive->ground_count, level = primitive->level_count;
+    const bool two_sided = material->two_sided;
+    if (is_mirror(d)) {
+        draw_indices(d, HOST_PIPELINE_SHADE, two_sided, first, count);
+    } else if (material->passes > 0) {
+        draw_indices(d, HOST_PIPELINE_CLOTH, two_sided, first, count);
+    } else if (!d->renderer->ground.cells) {
+        draw_indices(d, HOST_PIPELINE_DRY, two_sided, first, count);
+    } else {
+        if (primitive->ground)
+            draw_indices(d, HOST_PIPELINE_GROUND, two_sided, first, ground);
+        else /* a scene says that it is none */
+            draw_by_feet(d, mesh, primitive, 0, ground, level_kinds);
+        draw_by_feet(d, mesh, primitive, ground, level - ground, level_kinds);
+        draw_by_feet(d, mesh, primitive, level, count - level, steep_kinds);
+    }
+}
+
+/* Glass stays in its order: either none of it is wet, or all may be. */
+static void draw_primitive(drawing *d, const host_mesh *mesh, const host_primitive *primitive,
+                           const host_material *material, host_pipeline kind)
+{
+    if (kind == HOST_PIPELINE_SHADE) {
+        shade_primitive(d, mesh, primitive, material);
         return;
     }
-    uint32_t level = d->renderer->ground.cells ? primitive->level_count : 0;
-    if (is_mirror(d) || (kind == HOST_PIPELINE_GLASS && level))
-        level = count; /* glass stays in its order */
-    const bool one_shader = kind < HOST_PIPELINE_SHADE || kind == HOST_PIPELINE_DATA || kind == HOST_PIPELINE_FOOTAGE;
-    level = one_shader ? count : level;
-    draw_indices(d, kind, material->two_sided, first, level);
-    draw_indices(d, kind == HOST_PIPELINE_GLASS ? HOST_PIPELINE_DRY_GLASS : HOST_PIPELINE_DRY, material->two_sided,
-                 first + level, count - level);
+    const bool dry = !is_mirror(d) && !(d->renderer->ground.cells && primitive->level_count);
+    draw_indices(d, kind == HOST_PIPELINE_GLASS && dry ? HOST_PIPELINE_DRY_GLASS : kind, material->two_sided,
+                 primitive->first_index, primitive->index_count);
 }
 
 static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
@@ -165,7 +210,7 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
         vkCmdPushConstants(d->cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);
-        draw_primitive(d, primitive, material, kind);
+        draw_primitive(d, mesh, primitive, material, kind);
     }
 }
 
@@ -544,6 +589,18 @@ static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const host_targ
     return r->mirror_drawn;
 }
 
+/* Up to where water may climb: a little above the highest ground that is near. */
+static void find_foot(host_renderer *r, const host_camera *camera)
+{
+    double ground_m[2];
+    memcpy(r->eye_m, camera->position_m, sizeof r->eye_m);
+    r->foot_m = -DBL_MAX;
+    if (!r->ground.cells || !r->has_contact || !r->has_meniscus)
+        return;
+    find_ground(r, camera->position_m, CLIMB_NEAR_M, ground_m);
+    r->foot_m = ground_m[1] + HOST_CLIMB_M;
+}
+
 /* What both draws over a plate begin with: buffers of the frame, the mirror, and the descriptors. */
 static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                         const host_camera *previous, const char *label, char *error, size_t error_size)
@@ -557,6 +614,7 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
         if (!record_mirror(r, cmd, target, camera, previous, error, error_size))
             return false;
     }
+    find_foot(r, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     host_renderer_look_at_mirror(r, camera, &frame);
     record_frame(r, cmd, &frame);

@@ -19,7 +19,11 @@ typedef enum host_pipeline {
     HOST_PIPELINE_CUTOUT_ID,
     HOST_PIPELINE_SHADE, /* color of opaque and cut-out, where the depth is equal */
     HOST_PIPELINE_GLASS, /* blended over it */
-    HOST_PIPELINE_DRY,   /* instead of the last two where no water can lie; not in the mirror, where nothing is wet */
+    /* Instead of HOST_PIPELINE_SHADE; not in the mirror, where nothing is wet. */
+    HOST_PIPELINE_GROUND,   /* for ground that is level */
+    HOST_PIPELINE_FOOT,     /* where water may also climb */
+    HOST_PIPELINE_DRY,      /* where no water can lie */
+    HOST_PIPELINE_DRY_FOOT, /* nor lie, but climb */
     HOST_PIPELINE_DRY_GLASS,
     HOST_PIPELINE_CLOTH,   /* instead of HOST_PIPELINE_SHADE for all of what lets light through; not in the mirror */
     HOST_PIPELINE_DATA,    /* instead of HOST_PIPELINE_SHADE: no color */
@@ -84,7 +88,9 @@ struct host_renderer {
     host_contact contact;
     bool has_contact;
     bool has_meniscus;
-    bool has_walls; /* else all walls are dry */
+    double eye_m[3]; /* of the camera that the plate is drawn with */
+    double foot_m;   /* water climbs nothing above; -DBL_MAX: nothing */
+    bool has_walls;  /* else all walls are dry */
     virga_walls walls;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];

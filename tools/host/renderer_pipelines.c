@@ -12,7 +12,10 @@
 #include "scene_frag_cloth.spv.h"
 #include "scene_frag_data.spv.h"
 #include "scene_frag_dry.spv.h"
+#include "scene_frag_dry_foot.spv.h"
+#include "scene_frag_foot.spv.h"
 #include "scene_frag_footage.spv.h"
+#include "scene_frag_ground.spv.h"
 #include "scene_frag_mirror.spv.h"
 #include "scene_vert.spv.h"
 #include "scene_vert_mirror.spv.h"
@@ -49,7 +52,10 @@ enum {
     SHADER_ID,
     SHADER_CUTOUT_ID,
     SHADER_SCENE_FRAG,
+    SHADER_GROUND_FRAG,
+    SHADER_FOOT_FRAG,
     SHADER_DRY_FRAG,
+    SHADER_DRY_FOOT_FRAG,
     SHADER_CLOTH_FRAG,
     SHADER_DATA_FRAG,
     SHADER_FOOTAGE_FRAG,
@@ -70,9 +76,12 @@ static const struct {
     [HOST_PIPELINE_ID] = {SHADER_SCENE_VERT, SHADER_ID, true, false, false, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_CUTOUT_ID] = {SHADER_SCENE_VERT, SHADER_CUTOUT_ID, true, false, false, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_SHADE] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
-    [HOST_PIPELINE_GLASS] = {SHADER_SCENE_VERT, SHADER_SCENE_FRAG, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_GLASS] = {SHADER_SCENE_VERT, SHADER_FOOT_FRAG, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_GROUND] = {SHADER_SCENE_VERT, SHADER_GROUND_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
+    [HOST_PIPELINE_FOOT] = {SHADER_SCENE_VERT, SHADER_FOOT_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_DRY] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
-    [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FRAG, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_DRY_FOOT] = {SHADER_SCENE_VERT, SHADER_DRY_FOOT_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
+    [HOST_PIPELINE_DRY_GLASS] = {SHADER_SCENE_VERT, SHADER_DRY_FOOT_FRAG, false, true, true, VK_COMPARE_OP_LESS},
     [HOST_PIPELINE_CLOTH] = {SHADER_SCENE_VERT, SHADER_CLOTH_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_DATA] = {SHADER_SCENE_VERT, SHADER_DATA_FRAG, false, true, false, VK_COMPARE_OP_EQUAL},
     [HOST_PIPELINE_FOOTAGE] = {SHADER_SCENE_VERT, SHADER_FOOTAGE_FRAG, false, true, true, VK_COMPARE_OP_ALWAYS},
@@ -90,6 +99,9 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_ID: return HOST_CODE(id_frag);
     case SHADER_CUTOUT_ID: return HOST_CODE(cutout_frag_id);
     case SHADER_SCENE_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag);
+    case SHADER_GROUND_FRAG: return HOST_CODE(scene_frag_ground);
+    case SHADER_FOOT_FRAG: return mirror ? HOST_CODE(scene_frag_mirror) : HOST_CODE(scene_frag_foot);
+    case SHADER_DRY_FOOT_FRAG: return HOST_CODE(scene_frag_dry_foot);
     case SHADER_DRY_FRAG: return HOST_CODE(scene_frag_dry);
     case SHADER_CLOTH_FRAG: return HOST_CODE(scene_frag_cloth);
     case SHADER_DATA_FRAG: return HOST_CODE(scene_frag_data);

@@ -49,8 +49,9 @@ Climb climb_at(vec3 relative, vec3 n, vec3 v)
     const float pixel_m = max(length(up), 1e-5), facing = dot(v, climb.out_of_wall);
     const vec2 at = (relative.xz - frame.contact.xz) * frame.contact.w, inside = min(at, 1.0 - at);
     const bool may = frame.sampling.w > 0.0 && frame.contact.w > 0.0 && min(inside.x, inside.y) > 0.01 &&
-                     abs(n.y) < 0.7 && facing > 0.02;
-    const float reach_m = 0.005 + pixel_m, height_m = relative.y - frame.contact.y;
+                     abs(n.y) < HOST_STEEP_Y && facing > 0.02;
+    /* Which triangles have it is told from their heights, so pixels are not looked at up to any height. */
+    const float reach_m = min(0.005 + pixel_m, HOST_CLIMB_M - 0.01), height_m = relative.y - frame.contact.y;
     climb.bent = sqrt(dot(right, right) + dot(down, down));
     /* Where a smooth normal leans over so far that it turns away from the eye, rays would meet the wall from behind. */
     const float lean = n.y / flat_n, most = 0.8 / max(-lean, 0.08);
@@ -72,7 +73,8 @@ Climb climb_at(vec3 relative, vec3 n, vec3 v)
         /* The map has half floats: where the ground is more than 2 m above its lowest place within the map, their steps
          * are as large as the strip is high. */
         const float step_m = exp2(floor(log2(max(ground_m, 0.5))) - 10.0);
-        climb.share = water * seen.z * (1.0 - smoothstep(0.001, 0.003, step_m));
+        climb.share = water * seen.z * (1.0 - smoothstep(0.001, 0.003, step_m)) *
+                      (1.0 - smoothstep(0.5 * HOST_CLIMB_M, 0.9 * HOST_CLIMB_M, pixel_m));
     }
     return climb;
 }

@@ -19,6 +19,9 @@ typedef float host_mat4[16];
 #define HOST_MAX_LIGHTS     16
 #define HOST_RIPPLES_FADE   0.08   /* part of the ripple map's side along its edges in which ripples fade out */
 #define HOST_LEVEL_Y        0.3    /* normals that rise less are too steep for water */
+#define HOST_STEEP_Y        0.7    /* normals that rise more are no wall that water climbs, and no rain is driven at */
+#define HOST_CLIMB_M        0.12   /* above the ground no pixel has water that climbs, however high it is */
+#define HOST_CLIMB_CUT_M    0.15   /* where triangles are cut in two: higher */
 #define HOST_WALL_MATERIALS 17     /* of virga_material */
 #define HOST_WALL_ROWS      17     /* VIRGA_WALL_ROWS */
 #define HOST_LOOKS          8      /* at what water mirrors, for a picture of one sample */

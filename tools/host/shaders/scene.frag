@@ -1,11 +1,19 @@
 #version 460
 // scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
-// mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOTAGE it is what
+// mirror's plane, and dry; with DRY it is what no water lies on, and as it would be without. With FOOT, or
+// DRY_FOOT, water may climb it. With GROUND it is level ground, at which no rain is driven. With FOOTAGE it is what
 // water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry
-// in that sense, light of the other side comes through. With DATA it has no color.
+// in that sense, light of the other side comes through; its pores hold water, and none climbs it. With DATA it has no
+// color.
+//
+// Software Vulkan runs what stands under a condition for all pixels. So what is told from a triangle is left out by
+// variants. But for cloth they come to the same bits.
 #extension GL_GOOGLE_include_directive : require
-#ifdef CLOTH
+#if defined(CLOTH) || defined(DRY_FOOT)
 #define DRY
+#endif
+#if defined(FOOT) || defined(DRY_FOOT)
+#define CLIMBS
 #endif
 #if defined(CLOTH) || defined(MIRROR)
 #define THIN
@@ -24,12 +32,9 @@ layout(location = 0) in vec3 in_relative;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 
-#if !defined(FOOTAGE) && !defined(DATA)
+#if !defined(FOOTAGE) && !defined(DATA) && !defined(GROUND)
 #define WALLS
 #include "walls.glsl"
-#ifndef MIRROR
-#define CLIMBS
-#endif
 #endif
 #ifdef MIRROR
 layout(location = 0) out vec4 out_color;
@@ -329,6 +334,7 @@ void main()
     write(vec3(0.0), 1.0, n, vec3(0.0), cloth ? vec2(0.0) : vec2(max(water.damp, water.film), water.depth_mm * 1e-3));
 }
 #else
+#ifdef WALLS
 Wall wall_of(vec3 n, int bits)
 {
 #ifdef THIN
@@ -340,6 +346,7 @@ Wall wall_of(vec3 n, int bits)
     return wall_at(in_relative, n, int(surface.lamps.y), bits >= HOST_GROUND);
 #endif
 }
+#endif
 
 #ifdef THIN
 // What of the environment's light on the other side comes through; the shares of cloth, where it is one.

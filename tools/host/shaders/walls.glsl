@@ -180,7 +180,7 @@ Wall wall_at(vec3 relative, vec3 n, int material, bool ground)
         wall.damp = max(smoothstep(0.0, 0.85, row.x) * wet, 0.9 * streak);
         wall.film = max(smoothstep(0.01, 0.07, row.y) * wet * thick, 0.8 * streak);
     }
-    const float foot = abs(n.y) < 0.7 ? wall_foot(relative, n, place, level.w) : 0.0;
+    const float foot = abs(n.y) < HOST_STEEP_Y ? wall_foot(relative, n, place, level.w) : 0.0;
     wall.damp = share * max(wall.damp, foot);
     wall.film = share * max(wall.film, 0.7 * foot);
     return wall;
