@@ -117,8 +117,8 @@ done
 python3 "$here/check_panes.py" stats "$work/out/stats.jsonl" || fail "statistics of panes"
 python3 "$here/check_panes.py" points "$work/out"/glass.00{06,07,12}.ply "$work/seen" "$work/out/stats.jsonl" ||
     fail "point caches of panes"
-oiiotool "$work/out/frame.0012.exr" --ch glass.R,glass.G,glass.B,glass.A,refraction.X,refraction.Y -d float \
-    -o "$work/layers.exr" && oiiotool --stats "$work/layers.exr" >"$work/pixels" || fail "oiiotool"
+oiiotool "$work/out/frame.0012.exr" --ch glass.R,glass.G,glass.B,glass.A,refraction.X,refraction.Y --printstats \
+    >"$work/pixels" || fail "oiiotool"
 python3 "$here/check_panes.py" pixels "$work/pixels" || fail "pixels of panes"
 
 # The beauty is the panes over what it would be without them; what they have no water on stays.
@@ -185,8 +185,7 @@ for frame in 1 2 3 4; do
 done
 render_shield plate --frames 3-4 --plate "$work/plate.%04d.exr" --layers beauty,glass,depth
 grep -q 'is 192 x 108, resampled to 96 x 54' "$work/log" || fail "resampling is not said"
-oiiotool "$work/plate/frame.0004.exr" --ch R,G,B -d float -o "$work/layers.exr" &&
-    oiiotool --stats "$work/layers.exr" >"$work/pixels" || fail "oiiotool"
+oiiotool "$work/plate/frame.0004.exr" --ch R,G,B --printstats >"$work/pixels" || fail "oiiotool"
 python3 "$here/check_panes.py" plate "$work/pixels" 0.6 0.4 0.2 || fail "the plate is not in the beauty"
 VIRGA_VALIDATE=0 render_shield folder --frames 4 --plate "$work/footage" --layers beauty,glass,depth
 idiff -q -fail 0 "$work/plate/frame.0004.exr" "$work/folder/frame.0004.exr" >"$work/log" ||

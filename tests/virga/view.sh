@@ -16,8 +16,8 @@ fail() {
 
 # A number of a picture's red, of 255, inside WIDTHxHEIGHT+X+Y.
 number() { # Avg|StdDev FILE GEOMETRY
-    oiiotool "$2" --cut "$3" --ch R,G,B -o "$work/cut.png" >/dev/null && oiiotool --stats "$work/cut.png" |
-        awk -v what="$1:" '$1 == "Stats" && $2 == what { print int($3) }'
+    oiiotool "$2" --cut "$3" --ch R,G,B --printstats |
+        awk -v what="$1:" '$1 == "Stats" && $2 == what { print int(255 * $3) }'
 }
 
 has() { # TEXT FILE
