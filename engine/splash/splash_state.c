@@ -53,6 +53,7 @@ static void check_lists(const virga_splash *splash, virga_state_check *check)
         return;
     virga_state_expect(check, "splash.handed.count", handed->count, 0, splash->def.max_handed);
     virga_state_expect(check, "splash.handed.capacity", handed->capacity, 0, splash->def.max_handed);
+    virga_state_expect(check, "splash.handed.drips", handed->drips, 0, 4.0 * splash->def.max_drips);
     virga_state_expect_groups(check, "splash.handed.group_count", handed->group_count,
                               groups_over(splash->def.max_handed));
 }

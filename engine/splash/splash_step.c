@@ -40,6 +40,8 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->drip_left_nl = count_of(state, VIRGA_SPLASH_DRIP_LEFT);
     stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
     stats->splashes_cut_short = count_of(state, VIRGA_SPLASH_CUT_SHORT);
+    stats->drips_held = count_of(state, VIRGA_SPLASH_DRIPS_HELD);
+    stats->droplets_held = count_of(state, VIRGA_SPLASH_DROPLETS_HELD);
     stats->splashes_alive = state->alive;
     stats->droplets_alive = state->staying;
 }

@@ -61,6 +61,7 @@ void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, 
     const virga_splash_settings *settings = &splash->settings;
     virga_splash_tick_gpu out = {.tick = info->first_tick + tick_in_step,
                                  .tick_in_step = tick_in_step,
+                                 .ticks = info->ticks,
                                  .tick_s = (float)splash->def.tick_s,
                                  .air_density = settings->air_density,
                                  .bounce = settings->bounce,

@@ -30,7 +30,8 @@ struct virga_handed_droplets_gpu {
     uint count;          /* droplets that follow */
     uint capacity;       /* how many there may be in all; 0 before splash's first step */
     uint group_count[3]; /* ceil(count / 64), 1, 1: for an indirect dispatch; the writer keeps it up to date */
-    uint pad[3];
+    uint drips; /* splash's own: drops that were due at edges in a tick of the step before, for which it keeps slots */
+    uint pad[2];
 };
 
 #ifndef VIRGA_GLSL

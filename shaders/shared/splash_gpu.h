@@ -57,6 +57,7 @@ struct virga_splash_pane_gpu {
 struct virga_splash_tick_gpu {
     uint tick;
     uint tick_in_step;
+    uint ticks;   /* of the step */
     float tick_s; /* s, length of a tick */
     uint max_spawns;
     float anchor[3];   /* m, origin of positions, in the world */
@@ -109,12 +110,14 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_SPRAY_PANES    8
 #define VIRGA_SPLASH_CUT_SHORT      9 /* splashes that newer ones replaced before their end */
 /* Of drips: nl of rain that drains to them; nl that fell as drops; these drops; nl of places that lost their index. */
-#define VIRGA_SPLASH_DRIP_IN   10
-#define VIRGA_SPLASH_DRIP_OUT  11
-#define VIRGA_SPLASH_DRIPS     12
-#define VIRGA_SPLASH_DRIP_LEFT 13
-#define VIRGA_SPLASH_BY_MODEL  14
-#define VIRGA_SPLASH_COUNTS    174
+#define VIRGA_SPLASH_DRIP_IN       10
+#define VIRGA_SPLASH_DRIP_OUT      11
+#define VIRGA_SPLASH_DRIPS         12
+#define VIRGA_SPLASH_DRIP_LEFT     13
+#define VIRGA_SPLASH_DRIPS_HELD    14 /* drops of edges that were due and found no room, counted in each step */
+#define VIRGA_SPLASH_DROPLETS_HELD 15 /* landed droplets that found no room among the returns, counted in each tick */
+#define VIRGA_SPLASH_BY_MODEL      16
+#define VIRGA_SPLASH_COUNTS        176
 
 /* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
@@ -142,7 +145,7 @@ struct virga_splash_state_gpu {
     /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
     uint sprite_groups[3];
     uint view_groups[3]; /* the same, over droplets only */
-    virga_splash_count_gpu counts[174];
+    virga_splash_count_gpu counts[176];
 };
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */
@@ -226,7 +229,7 @@ struct virga_splash_prepared_gpu {
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 144);
-VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 164 + 64 * VIRGA_SPLASH_PANES);
+VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 168 + 64 * VIRGA_SPLASH_PANES);
 VIRGA_ASSERT_SIZE(virga_splash_pane_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);

@@ -27,11 +27,9 @@ static void choose_sites(void)
     }
 }
 
-static void begin(bool wet, uint32_t max_handed)
+static void begin_in(virga_splash_def def, bool wet)
 {
-    virga_splash_def def = splash_fixture_def();
     def.max_drips = SITES;
-    def.max_handed = max_handed;
     splash_fixture_open(&f, &def);
     f.settings.drip_wet = wet;
     REQUIRE(virga_splash_set(f.splash, &f.settings) == VIRGA_OK);
@@ -39,6 +37,13 @@ static void begin(bool wet, uint32_t max_handed)
     REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
     f.camera[0] = 1000, f.camera[2] = -2000;
     f.rain_mm_h = RAIN;
+}
+
+static void begin(bool wet, uint32_t max_handed)
+{
+    virga_splash_def def = splash_fixture_def();
+    def.max_handed = max_handed;
+    begin_in(def, wet);
 }
 
 static void play(uint32_t ticks, uint32_t per_step)
@@ -96,7 +101,7 @@ static void rain_that_drains_is_film_hanging_drops_and_drops_that_fell(void **st
     splash_fixture_close(&f);
 }
 
-/* Room for 16 drops in a step, where some hundred would fall. */
+/* Room for 16 drops in a step, where some hundred would fall. It is not always the same places that have it. */
 static void drops_without_room_hang_until_there_is_some(void **state)
 {
     (void)state;
@@ -109,6 +114,150 @@ static void drops_without_room_hang_until_there_is_some(void **state)
         assert_in_range(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before, 16, 16);
         assert_counted();
     }
+    uint32_t dripped = 0;
+    for (uint32_t i = 0; i < SITES; i++)
+        dripped += f.drips[i].drops > 0;
+    assert_in_range(dripped, SITES / 2, SITES);
+    splash_fixture_close(&f);
+}
+
+/* ---- droplets everywhere */
+
+#define CROWD_STEPS 24
+#define CROWD_TICKS 4
+
+/* Each tick brings more splashes than there is room for, and as their water takes all of the list of returns, nothing
+ * leaves the air in a step's last ticks. From the second step on: the first one's drops say how much room is kept.
+ * Without `crowd`: none. */
+static void drip_among_splashes(bool crowd, uint64_t fell[CROWD_STEPS])
+{
+    enum { SPAWNS = 1000 };
+    virga_splash_def def = splash_fixture_def();
+    def.max_droplets = def.max_returned_droplets = def.max_handed = 4096;
+    begin_in(def, true);
+    for (uint32_t i = 0; i < CROWD_STEPS; i++) {
+        const uint64_t before = i ? splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) : 0;
+        for (uint32_t k = 0; crowd && i && k < CROWD_TICKS * SPAWNS; k++)
+            splash_fixture_spawn(&f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_WET)->tick = f.tick + k / SPAWNS;
+        splash_fixture_step(&f, CROWD_TICKS);
+        assert_counted();
+        fell[i] = splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before;
+    }
+    assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_WITHOUT_DROPLETS) > 0, crowd);
+    assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS_HELD), 0);
+}
+
+/* All drops fall when they are due, from the first step on: those of splashes go without. Drops of many places that
+ * are not in step are at most as uneven as those of chance, of which the variance is the mean. */
+static void a_pool_full_of_splashes_keeps_room_for_drips(void **state)
+{
+    (void)state;
+    static virga_drip_gpu alone[SITES];
+    uint64_t fell[2][CROWD_STEPS];
+    double mean = 0, variance = 0;
+    drip_among_splashes(false, fell[0]);
+    memcpy(alone, f.drips, sizeof alone);
+    splash_fixture_close(&f);
+    drip_among_splashes(true, fell[1]);
+    assert_memory_equal(fell[1], fell[0], sizeof fell[0]);
+    assert_memory_equal(f.drips, alone, sizeof alone);
+    splash_fixture_close(&f);
+    for (uint32_t i = 0; i < CROWD_STEPS; i++)
+        mean += (double)fell[1][i] / CROWD_STEPS;
+    for (uint32_t i = 0; i < CROWD_STEPS; i++)
+        variance += ((double)fell[1][i] - mean) * ((double)fell[1][i] - mean) / (CROWD_STEPS - 1);
+    /* 4 standard deviations of a variance of 24 numbers: 4 sqrt(2 / 23) = 1.2. */
+    assert_in_range(mean, 40, 400);
+    assert_true(variance < 2.2 * mean);
+}
+
+static virga_handed_droplets_gpu handed_head(void)
+{
+    VkDeviceSize offset = 0;
+    const VkCommandBuffer cmd = splash_fixture_begin(&f);
+    effect_fixture_transfers(cmd);
+    const virga_handed_droplets_gpu *head =
+        effect_fixture_copy(cmd, f.splash->handed->buffer, sizeof *head, &f.download, &offset);
+    splash_fixture_submit(&f);
+    host_buffer_invalidate(&f.gpu.device, &f.download);
+    return *head;
+}
+
+/* Water that hands over droplets leaves slots for as many drops as fell before, and four standard deviations more. */
+static void water_leaves_room_for_drips(void **state)
+{
+    (void)state;
+    begin(true, 128);
+    for (uint32_t i = 0; i < 10; i++) {
+        const uint64_t before = i ? splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) : 0;
+        splash_fixture_step(&f, 1 + i % 4);
+        const uint32_t fell = (uint32_t)(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before), ticks = 1 + i % 4;
+        const virga_handed_droplets_gpu head = handed_head();
+        const uint32_t kept = (head.drips * ticks) + head.drips * ticks / 4 + 16;
+        assert_int_equal(head.drips, (fell + ticks - 1) / ticks);
+        assert_int_equal(head.capacity, kept < 128 ? 128 - kept : 0);
+    }
+    REQUIRE(virga_splash_set_drips(f.splash, NULL, 0) == VIRGA_OK);
+    splash_fixture_step(&f, 1);
+    assert_int_equal(handed_head().capacity, 128);
+    splash_fixture_close(&f);
+}
+
+/* Not even where all have as much water. */
+static void edges_do_not_begin_in_step(void **state)
+{
+    (void)state;
+    begin(true, 4096);
+    for (uint32_t i = 0; i < SITES; i++)
+        sites[i].catch_m2 = 0.03f;
+    REQUIRE(virga_splash_set_drips(f.splash, sites, SITES) == VIRGA_OK);
+    const double mean = SITES * inflow_of(&sites[0]) * TICK_S / (523.6 * 68);
+    for (uint32_t i = 0; i < 30; i++) {
+        const uint64_t before = i ? splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) : 0;
+        splash_fixture_step(&f, 1);
+        assert_true(fabs((double)(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before) - mean) < 4 * sqrt(mean));
+    }
+    splash_fixture_close(&f);
+}
+
+/* For a second spray that does not land has all slots, and ends in one tick. What could not fall in the meantime does
+ * not fall at once then, but by and by, and not at the beginnings of ticks. */
+static void late_drops_do_not_fall_as_a_curtain(void **state)
+{
+    enum { HELD_TICKS = 60, TICKS = 60 };
+    (void)state;
+    static virga_droplet_gpu spray[16384];
+    double due = 0, fell = 0, part = 0, new_ones = 0;
+    for (uint32_t i = 0; i < 16384; i++)
+        spray[i] = (virga_droplet_gpu){.position = {0, 1000, 0},
+                                       .age_s = 3 - (HELD_TICKS - 0.5f) * (float)TICK_S,
+                                       .diameter_m = 1e-3f,
+                                       .kind = VIRGA_DROPLET_SPRAY | VIRGA_DROPLET_FREE | VIRGA_DROPLET_ALIVE,
+                                       .water_nl = 1};
+    begin(true, 4096);
+    splash_fixture_put(&f, spray, 16384);
+    f.rain_mm_h = 100;
+    for (uint32_t i = 0; i < SITES; i++)
+        due += inflow_of(&sites[i]) * (double)f.rain_mm_h / (double)RAIN * TICK_S / (523.6 * 68);
+    for (uint32_t i = 1; i < HELD_TICKS; i++)
+        splash_fixture_step(&f, 1);
+    assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS), 0);
+    assert_true((double)splash_fixture_count(&f, VIRGA_SPLASH_DRIPS_HELD) > due * HELD_TICKS);
+    for (uint32_t i = 0; i < TICKS; i++) {
+        const uint64_t before = splash_fixture_count(&f, VIRGA_SPLASH_DRIPS);
+        splash_fixture_step(&f, 1);
+        assert_counted();
+        const double now = (double)(splash_fixture_count(&f, VIRGA_SPLASH_DRIPS) - before);
+        assert_true(fabs(now - 1.25 * due) < 5 * sqrt(1.25 * due));
+        fell += now;
+        for (uint32_t k = 0; k < f.state->staying; k++)
+            if ((double)f.droplets[k].age_s - 0.15 < TICK_S) {
+                part += ((double)f.droplets[k].age_s - 0.15) / TICK_S;
+                new_ones += 1;
+            }
+    }
+    assert_float_equal(fell / (1.25 * due * TICKS), 1, 0.04);
+    assert_float_equal(part / new_ones, 0.5, 0.02);
     splash_fixture_close(&f);
 }
 
@@ -444,6 +593,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rain_that_drains_is_film_hanging_drops_and_drops_that_fell),
         cmocka_unit_test(drops_without_room_hang_until_there_is_some),
+        cmocka_unit_test(a_pool_full_of_splashes_keeps_room_for_drips),
+        cmocka_unit_test(water_leaves_room_for_drips),
+        cmocka_unit_test(edges_do_not_begin_in_step),
+        cmocka_unit_test(late_drops_do_not_fall_as_a_curtain),
         cmocka_unit_test(a_film_grows_and_drains_as_in_double_precision),
         cmocka_unit_test(in_steady_rain_an_edge_drips_what_it_gets),
         cmocka_unit_test(what_is_sheltered_gets_less_rain),

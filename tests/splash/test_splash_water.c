@@ -317,6 +317,30 @@ static void keep_a_storm(kept *out)
     splash_fixture_close(&f);
 }
 
+/* 256 return in a step of as many as are there. */
+static void test_landed_droplets_that_wait_are_counted(void **state)
+{
+    (void)state;
+    static virga_droplet_gpu landed[700];
+    virga_splash_def def = splash_fixture_def();
+    def.max_spawns = def.max_returned_droplets = 256;
+    begin(&def);
+    for (uint32_t i = 0; i < 700; i++)
+        landed[i] = (virga_droplet_gpu){.diameter_m = 1e-3f,
+                                        .kind = VIRGA_DROPLET_FREE | VIRGA_DROPLET_ALIVE | VIRGA_DROPLET_FALLEN,
+                                        .water_nl = 500};
+    splash_fixture_put(&f, landed, 700);
+    splash_fixture_step(&f, 3);
+    assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_DROPLETS_HELD), 3 * (700 - 256));
+    for (uint32_t i = 0; i < 3; i++)
+        splash_fixture_step(&f, 1);
+    virga_splash_stats stats;
+    virga_splash_stats_get(f.splash, &stats);
+    assert_int_equal(stats.droplets_held, 3 * (700 - 256) + 700 - 512);
+    assert_int_equal(stats.fallen, 700);
+    splash_fixture_close(&f);
+}
+
 static void test_the_same_spawns_give_the_same_bits(void **state)
 {
     (void)state;
@@ -415,6 +439,7 @@ int main(void)
         cmocka_unit_test(test_a_step_without_ticks_changes_nothing),
         cmocka_unit_test(test_a_camera_that_goes_300_m_leaves_all_where_it_is),
         cmocka_unit_test(test_a_camera_that_flies_about_loses_no_water),
+        cmocka_unit_test(test_landed_droplets_that_wait_are_counted),
         cmocka_unit_test(test_the_same_spawns_give_the_same_bits),
         cmocka_unit_test(test_of_more_splashes_than_slots_the_newest_stay),
         cmocka_unit_test(test_a_slow_pile_lets_go_after_the_unit_time),

@@ -61,7 +61,9 @@ typedef struct virga_splash_def {
     uint32_t max_spawns;
 
     /* [max_spawns; 4194240] droplets that may fall back in one step, 64 bytes each; further ones wait in the air for
-     * the next step. The ground's must be as large. Default 131072. */
+     * the next step, and hold their slots until then (virga_splash_stats.droplets_held). Droplets of rain fly for about
+     * 0.12 s: in a step of dt_s up to max_droplets x dt_s / 0.12 s come down, so a host with long steps needs more. The
+     * ground's must be as large. Default 131072. */
     uint32_t max_returned_droplets;
 
     /* [0; 1048576] droplets that water may hand over in a step, 48 bytes each. 0: there is no list for them. Default
@@ -247,7 +249,8 @@ typedef struct virga_drip_site {
     float velocity_m_s[3];
 
     /* [0; 64] drops that fly as one, and land in one place: for pipes, which pour thousands in a second. 0 counts as 1.
-     * In a tick four leave a place at most, and what waits is counted as hanging. Default 0. */
+     * In a tick four leave a place at most, and what waits is counted as hanging. So it is with drops that find no
+     * room. Later such a place drips a quarter faster, at random times, until none is late. Default 0. */
     float drops;
 
     /* [0; 1] share of the rain that does not reach its surface, as something above keeps it off: a car below a bridge.
@@ -424,6 +427,14 @@ typedef struct virga_splash_stats {
 
     /* Splashes that newer ones replaced before their end, because def.max_splashes was full. */
     uint64_t splashes_cut_short;
+
+    /* Of edges: drops that were due and found no room, because def.max_handed or def.max_droplets was full. A drop that
+     * waits is counted in each step. */
+    uint64_t drips_held;
+
+    /* Droplets that had landed and stayed in the air, because def.max_returned_droplets was full. One that waits is
+     * counted in each tick, and holds a slot of def.max_droplets all that time. */
+    uint64_t droplets_held;
 
     /* Of the newest prepare. */
     uint32_t sprites;

@@ -1,5 +1,5 @@
 // adopt_end.comp - ends a step: droplets that were taken are in the air, and the list of the next step has room for as
-// many as there are free slots.
+// many as there are free slots, without those that are kept for drops from edges.
 // One invocation. Reads and writes: state, the list's head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -18,6 +18,9 @@ void main()
     count(VIRGA_SPLASH_DROPLETS, taken);
     set_view_groups(state.staying);
     handed_head.count = 0u;
-    handed_head.capacity = min(tick.max_handed, tick.max_droplets - state.staying);
+    if (tick.drip_sites == 0u)
+        handed_head.drips = 0u;
+    const uint room = min(tick.max_handed, tick.max_droplets - state.staying);
+    handed_head.capacity = room - min(kept_for_drips(), room);
     handed_head.group_count = uint[3](0u, 1u, 1u);
 }

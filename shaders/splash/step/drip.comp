@@ -1,10 +1,12 @@
 // drip.comp - rain water that drains to edges, hangs there and falls as drops: they go into the list of droplets that
-// are handed over, behind those that are there. What finds no room stays where it is.
+// are handed over, behind those that are there. What finds no room stays where it is, and is late. Drops that are late
+// at many places must not all fall as soon as there is room: a place that has some lets a quarter more fall than comes
+// to it, at random times.
 //
 // What an index has is the water of one place. If another place has got it, that water is gone, and counted.
 //
 // All ticks of a step at once. Every site is stepped twice: to count its drops, and to write them behind those of the
-// sites before it.
+// sites before it. Another site is the first in each step, so that it is not always the same that find no room.
 // One workgroup, in which each invocation takes a run of sites. Reads: sites. Writes: their water, the list, counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -23,6 +25,8 @@ layout(scalar, set = 0, binding = 3) buffer Drips { virga_drip_gpu drips[]; };
 #define MAX_FILM_NL 4000000000u
 #define MAX_HANG_NL 1000000000u
 #define MAX_DROPS   4u   // of a site in a tick
+#define LATE_PACE   1.25 // drops that fall from a place with late ones, over those that come to it
+#define LATE_S      1.0  // s, the mean time until a late one falls from a place to which nothing comes
 #define SHOWN_S     0.15 // drops are seen as soon as they fall: see CLEAR_S in splash/draw/sprite.glsl
 
 // A whole number whose mean is the value.
@@ -92,6 +96,24 @@ uint drain(virga_drip_site_gpu site, uint number, inout virga_drip_gpu drip, ino
     return left;
 }
 
+// Whether the late drop k of a tick falls in it, by chance: what falls is `quota_nl` in the mean, or more, so that the
+// last ones fall too. Takes from the quota what falls.
+bool late_falls(uint seed, uint number, uint k, uint size_nl, inout float quota_nl)
+{
+    const float chance = max(quota_nl / float(max(size_nl, 1u)), k == 0u ? tick.tick_s / LATE_S : 0.0);
+    quota_nl -= float(size_nl);
+    return virga_unit(virga_hash3(seed, number, 4u + k)) < chance;
+}
+
+// The part of a tick that is left after a drop has fallen in it. It falls when there is enough water for it: what hangs
+// then came later in the tick. A late one falls at any time.
+float rest_of_tick(uint seed, uint number, bool late, uint hang_nl, uint came_nl)
+{
+    if (late)
+        return virga_unit(virga_hash3(seed, number, 2u));
+    return clamp(float(hang_nl) / float(max(came_nl, 1u)), 0.0, 1.0);
+}
+
 // All ticks of a step. `last`: drops are written from `index` on, as far as there is room. Returns their number.
 uint step_site(uint i, bool last, uint room, inout uint index, inout uvec3 water)
 {
@@ -107,14 +129,17 @@ uint step_site(uint i, bool last, uint room, inout uint index, inout uvec3 water
         caught = drip.film_nl + drip.hang_nl;
     }
     for (uint t = 0u; t < tick.tick_in_step; t++) {
-        const uint came = drain(site, tick.tick - tick.tick_in_step + t, drip, caught);
+        const uint number = tick.tick - tick.tick_in_step + t, came = drain(site, number, drip, caught);
+        const bool late = drip.hang_nl - came >= water_of(site, diameter_of(site.seed, drip.drops));
+        float quota = LATE_PACE * float(came);
         for (uint k = 0u; k < MAX_DROPS; k++) {
             const uint size = water_of(site, diameter_of(site.seed, drip.drops));
             if (drip.hang_nl < size || (last && index >= room))
                 break;
+            if (late && !late_falls(site.seed, number, k, size, quota))
+                break;
             drip.hang_nl -= size;
-            // It fell when there was enough for it: the rest came later in the tick.
-            const float rest = clamp(float(drip.hang_nl) / float(max(came, 1u)), 0.0, 1.0);
+            const float rest = rest_of_tick(site.seed, drip.drops, late, drip.hang_nl, came);
             if (last) {
                 write_drop(index++, site, drip.drops, (float(tick.tick_in_step - 1u - t) + rest) * tick.tick_s);
                 water += uvec3(0u, size, uint(site.drops));
@@ -134,9 +159,9 @@ void main()
 {
     const uint lane = gl_LocalInvocationIndex, run = (tick.drip_sites + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(lane * run, tick.drip_sites), end = min(begin + run, tick.drip_sites);
-    // Splashes of this step may have taken slots since the list got its capacity.
-    const uint free_slots = tick.max_droplets - state.staying;
-    const uint before = handed_count(), room = min(min(handed_head.capacity, tick.max_handed), free_slots);
+    // Not the list's capacity, which is for others that write to it and leaves these slots.
+    const uint before = handed_count(), room = min(tick.max_handed, tick.max_droplets - state.staying);
+    const uint first = virga_hash1(tick.tick) % max(tick.drip_sites, 1u);
     uint fell = 0u, index = 0u;
     uvec2 all = uvec2(0u);
     for (uint pass = 0u; pass < 2u; pass++) {
@@ -144,7 +169,7 @@ void main()
             index = before + scan_group(uvec2(fell, 0u), all).x;
         for (uint i = begin; i < end; i++) {
             uvec3 water = uvec3(0u);
-            fell += step_site(i, pass == 1u, room, index, water);
+            fell += step_site((first + i) % tick.drip_sites, pass == 1u, room, index, water);
             count(VIRGA_SPLASH_DRIP_IN, water.x);
             count(VIRGA_SPLASH_DRIP_OUT, water.y);
             count(VIRGA_SPLASH_DRIPS, water.z);
@@ -153,6 +178,8 @@ void main()
     if (lane != 0u)
         return;
     const uint total = min(before + all.x, max(room, before));
+    count(VIRGA_SPLASH_DRIPS_HELD, before + all.x - total);
+    handed_head.drips = (all.x + tick.tick_in_step - 1u) / max(tick.tick_in_step, 1u);
     handed_head.count = total;
     handed_head.group_count = uint[3]((total + 63u) / 64u, 1u, 1u);
 }

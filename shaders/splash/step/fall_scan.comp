@@ -83,6 +83,7 @@ void main()
     state.fall_groups = state.droplet_groups;
     set_view_groups(all.y - fallen);
     count(VIRGA_SPLASH_FALLEN, fallen);
+    count(VIRGA_SPLASH_DROPLETS_HELD, all.x - fallen);
     returns_head.count = returned + fallen;
     returns_head.dropped = 0u;
     returns_head.group_count = uint[3]((returned + fallen + 63u) / 64u, 1u, 1u);

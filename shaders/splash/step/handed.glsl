@@ -11,5 +11,13 @@ layout(scalar, set = 0, binding = HANDED_BINDING) buffer Handed
     virga_handed_droplet_gpu handed[];
 };
 
+// Slots that drops from edges will need by the end of the step: as many in a tick as in the step before, and four
+// deviations more where that is a Poisson number (4 sqrt(n) <= n / 4 + 16).
+uint kept_for_drips()
+{
+    const uint drips = min(handed_head.drips, tick.max_handed) * min(tick.ticks, 64u);
+    return drips > 0u ? min(drips + drips / 4u + 16u, tick.max_handed) : 0u;
+}
+
 // A writer may be the host: what it says is limited to what there is room for.
 uint handed_count() { return min(handed_head.count, min(tick.max_handed, tick.max_droplets - state.staying)); }

@@ -72,11 +72,14 @@ uint make_room(uint lane, uint first, uint end, uint end_after)
     return kept;
 }
 
-// Droplets that are handed over come at the end of the step.
+// Droplets that are handed over come at the end of the step, and so do drops from edges. These are few and large. Had
+// splashes of heavy rain all slots, nothing would drip for seconds, and what waited would then fall as a curtain.
 uint room_beside_handed(uint room)
 {
-    const uint waiting = tick.max_handed > 0u ? min(handed_head.count, tick.max_handed) : 0u;
-    return room - min(waiting, room);
+    if (tick.max_handed == 0u)
+        return room;
+    const uint kept = min(handed_head.count, tick.max_handed) + kept_for_drips();
+    return room - min(min(kept, tick.max_handed), room);
 }
 
 void main()
