@@ -4,6 +4,7 @@ Usage: check_outputs.py headers|pixels|points|droplets|stats|previews FILE...
        check_outputs.py near FILE X Y Z
        check_outputs.py mapped POINTS STATS STATS_WITHOUT
        check_outputs.py drips STATS
+       check_outputs.py long STATS
 """
 import json
 import math
@@ -388,9 +389,15 @@ def check_drips(paths):
     expect(14.1 < mean_ul < 65.5, f"drops of {mean_ul:.1f} ul, not of 3 to 5 mm")
 
 
+def check_long(paths):
+    splash = [json.loads(line)["splash"] for line in open(paths[0])][-1]
+    expect(splash["fallen"] > 131072, f"{splash['fallen']} droplets landed")
+    expect(splash["droplets_held"] == 0, f"{splash['droplets_held']} droplets waited in the air")
+
+
 CHECKS = {"headers": check_headers, "pixels": check_pixels, "moving": check_moving, "points": check_points,
           "droplets": check_droplets,
           "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews,
-          "drips": check_drips}
+          "drips": check_drips, "long": check_long}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)

@@ -83,6 +83,10 @@ python3 "$here/check_outputs.py" near "$work/far/splash.0002.ply" 1001.5 1.7 -59
 VIRGA_VALIDATE=0 render drips --frames 2 --stats --layers depth --set splash.drips.on=true
 python3 "$here/check_outputs.py" drips "$work/drips/stats.jsonl" || fail "drips"
 
+# In half a second more droplets land than a step of usual length has room for. None waits in the air.
+VIRGA_VALIDATE=0 render long --frames 2 --stats --layers depth --set frames.fps=2 --set rain.rate_mm_h=120
+python3 "$here/check_outputs.py" long "$work/long/stats.jsonl" || fail "long frames"
+
 # A map of materials: metal ahead of the camera to the left, tiles behind it to the right, else what the meshes say.
 base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg\
 +M/wnxEABgECAIvKKHgAAAAASUVORK5CYII=
