@@ -97,21 +97,14 @@ uint drain(virga_drip_site_gpu site, uint number, inout virga_drip_gpu drip, ino
 }
 
 // Whether the late drop k of a tick falls in it, by chance: what falls is `quota_nl` in the mean, or more, so that the
-// last ones fall too. Takes from the quota what falls.
-bool late_falls(uint seed, uint number, uint k, uint size_nl, inout float quota_nl)
+// last ones fall too. Takes from the quota what falls. The tick has one random number for all its drops: only the last
+// of them does not fall for certain.
+bool late_falls(float random, uint k, uint size_nl, inout float quota_nl)
 {
-    const float chance = max(quota_nl / float(max(size_nl, 1u)), k == 0u ? tick.tick_s / LATE_S : 0.0);
-    quota_nl -= float(size_nl);
-    return virga_unit(virga_hash3(seed, number, 4u + k)) < chance;
-}
-
-// The part of a tick that is left after a drop has fallen in it. It falls when there is enough water for it: what hangs
-// then came later in the tick. A late one falls at any time.
-float rest_of_tick(uint seed, uint number, bool late, uint hang_nl, uint came_nl)
-{
-    if (late)
-        return virga_unit(virga_hash3(seed, number, 2u));
-    return clamp(float(hang_nl) / float(max(came_nl, 1u)), 0.0, 1.0);
+    const float size = float(size_nl), least = k == 0u ? size * (tick.tick_s / LATE_S) : 0.0;
+    const bool falls = random * size < max(quota_nl, least);
+    quota_nl -= size;
+    return falls;
 }
 
 // All ticks of a step. `last`: drops are written from `index` on, as far as there is room. Returns their number.
@@ -130,21 +123,25 @@ uint step_site(uint i, bool last, uint room, inout uint index, inout uvec3 water
     }
     for (uint t = 0u; t < tick.tick_in_step; t++) {
         const uint number = tick.tick - tick.tick_in_step + t, came = drain(site, number, drip, caught);
-        const bool late = drip.hang_nl - came >= water_of(site, diameter_of(site.seed, drip.drops));
+        uint size = water_of(site, diameter_of(site.seed, drip.drops));
+        const bool late = drip.hang_nl - came >= size;
+        const uint hash = late ? virga_hash3(site.seed, number, 2u) : 0u;
+        const float random = virga_unit(hash), late_rest = float(hash & 255u) / 256.0;
         float quota = LATE_PACE * float(came);
-        for (uint k = 0u; k < MAX_DROPS; k++) {
-            const uint size = water_of(site, diameter_of(site.seed, drip.drops));
-            if (drip.hang_nl < size || (last && index >= room))
-                break;
-            if (late && !late_falls(site.seed, number, k, size, quota))
+        for (uint k = 0u; k < MAX_DROPS && drip.hang_nl >= size && !(last && index >= room); k++) {
+            if (late && !late_falls(random, k, size, quota))
                 break;
             drip.hang_nl -= size;
-            const float rest = rest_of_tick(site.seed, drip.drops, late, drip.hang_nl, came);
+            // It falls when there is enough water for it: what hangs then came later in the tick. A late one falls at
+            // any time, four of them at different ones (golden section).
+            const float rest = late ? fract(late_rest + 0.618034 * float(k))
+                                    : clamp(float(drip.hang_nl) / float(max(came, 1u)), 0.0, 1.0);
             if (last) {
                 write_drop(index++, site, drip.drops, (float(tick.tick_in_step - 1u - t) + rest) * tick.tick_s);
                 water += uvec3(0u, size, uint(site.drops));
             }
             drip.drops++;
+            size = water_of(site, diameter_of(site.seed, drip.drops));
             fell++;
         }
     }
