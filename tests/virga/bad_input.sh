@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 # The drivers and the model loader keep memory of their own until the end; leaks of ours are counted by the tests of
 # the library, in which everything is destroyed and counted. The driver's compiler allocates most of all: its stacks are
 # cut short, and 32 MB of what was freed last are watched.
-export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1:malloc_context_size=2:quarantine_size_mb=32
+export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1:malloc_context_size=6:quarantine_size_mb=32
 export UBSAN_OPTIONS=halt_on_error=1:abort_on_error=1
 unset VIRGA_VALIDATE
 

@@ -16,7 +16,7 @@ fail() {
 
 # A number of a picture's red, of 255, inside WIDTHxHEIGHT+X+Y.
 number() { # Avg|StdDev FILE GEOMETRY
-    oiiotool "$2" --cut "$3" --ch R,G,B --printstats |
+    oiiotool "$2" --cut "$3" --ch R,G,B -d float --printstats |
         awk -v what="$1:" '$1 == "Stats" && $2 == what { print int(255 * $3) }'
 }
 

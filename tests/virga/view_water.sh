@@ -30,7 +30,7 @@ END
 
 # The mean of the middle, where the ball is, and of a corner: from 0 to 255.
 mean() { # FILE GEOMETRY
-    oiiotool "$1" --cut "$2" --ch R,G,B --printstats |
+    oiiotool "$1" --cut "$2" --ch R,G,B -d float --printstats |
         awk '$1 == "Stats" && $2 == "Avg:" { print int(255 * ($3 + $4 + $5)) }'
 }
 

@@ -118,7 +118,7 @@ static bool is_used(const scene_file *scene)
 
 static uint32_t most_returns(const shot *s, uint32_t least)
 {
-    const double airs = fmax(1 / s->scene->frames.fps / FLIGHT_S, 1);
+    const double airs = 1 / s->scene->frames.fps / FLIGHT_S;
     return (uint32_t)fmin(fmax(airs * scene_splash_of(s->scene)->max_droplets, least), 4194240);
 }
 

@@ -63,7 +63,8 @@ static bool find_alone(const host_vertex *vertices, const uint32_t corners[3], f
 }
 
 /* The point of an edge at that height. From the lower end to the upper one, so that both triangles at an edge come to
- * the same bits, and there is no gap between them. The normal is shorter than 1, so that those between are as before. */
+ * the same bits, and there is no gap between them. The normal is shorter than 1: normals between the points are as
+ * before. */
 static host_vertex point_on_edge(const host_vertex *a, const host_vertex *b, float height)
 {
     const bool rises = a->position[1] < b->position[1];

@@ -428,8 +428,8 @@ typedef struct virga_splash_stats {
     /* Splashes that newer ones replaced before their end, because def.max_splashes was full. */
     uint64_t splashes_cut_short;
 
-    /* Of edges: drops that were due and found no room, because def.max_handed or def.max_droplets was full. A drop that
-     * waits is counted in each step. */
+    /* Of edges: drops that were to fall and found no room, because def.max_handed or def.max_droplets was full. One
+     * that waits is counted again whenever it was to fall; those that fly as one (virga_drip_site.drops) count once. */
     uint64_t drips_held;
 
     /* Droplets that had landed and stayed in the air, because def.max_returned_droplets was full. One that waits is

@@ -176,7 +176,8 @@ void main()
         return;
     const uint total = min(before + all.x, max(room, before));
     count(VIRGA_SPLASH_DRIPS_HELD, before + all.x - total);
-    handed_head.drips = (all.x + tick.tick_in_step - 1u) / max(tick.tick_in_step, 1u);
+    const uint ticks = max(tick.tick_in_step, 1u);
+    handed_head.drips = (all.x + ticks - 1u) / ticks;
     handed_head.count = total;
     handed_head.group_count = uint[3]((total + 63u) / 64u, 1u, 1u);
 }
