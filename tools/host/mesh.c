@@ -236,6 +236,13 @@ bool host_mesh_read(host_device *device, const char *path, const float world_fro
     return ok;
 }
 
+bool host_mesh_bounds(const host_mesh *mesh, const host_primitive *primitive, const float **low, const float **high)
+{
+    *low = mesh->moves ? mesh->low : primitive->low;
+    *high = mesh->moves ? mesh->high : primitive->high;
+    return !mesh->apart && (mesh->moves || primitive->still);
+}
+
 void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices)
 {
     host_buffer_update(cmd, &mesh->vertices, vertices, mesh->vertex_count * sizeof *vertices,

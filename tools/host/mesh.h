@@ -83,8 +83,13 @@ bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t
                       uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,
                       size_t error_size);
 
+/* Where all of a primitive is (m). False: it is not known, as it moves with the camera, or in a way that only who made
+ * it knows. */
+bool host_mesh_bounds(const host_mesh *mesh, const host_primitive *primitive, const float **low, const float **high);
+
 /* How many of `count` indices of a primitive, from `first` on, are of triangles that begin below a height: those come
- * first. The indices are all of one kind: see host_primitive. If it is not known, all or none, by the mesh's bounds. */
+ * first. The indices are all of one kind: see host_primitive. If it is not known, all, or none of a mesh that moves and
+ * is higher. */
 uint32_t host_mesh_low_count(const host_mesh *mesh, const host_primitive *primitive, uint32_t first, uint32_t count,
                              float height_m);
 

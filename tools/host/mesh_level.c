@@ -107,8 +107,11 @@ bool host_mesh_sort_level(host_mesh_build *build)
 uint32_t host_mesh_low_count(const host_mesh *mesh, const host_primitive *primitive, uint32_t first, uint32_t count,
                              float height_m)
 {
-    if (!mesh->feet || !primitive->still)
-        return mesh->low[1] < height_m ? count : 0;
+    const float *lowest, *highest;
+    if (!host_mesh_bounds(mesh, primitive, &lowest, &highest))
+        return count;
+    if (mesh->moves || !mesh->feet)
+        return lowest[1] < height_m ? count : 0;
     const float *feet = &mesh->feet[(primitive->first_index + first) / 3];
     uint32_t low = 0, high = count / 3;
     while (low < high) {

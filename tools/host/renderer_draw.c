@@ -45,11 +45,13 @@ static bool reaches(const virga_light *light, const float low[3], const float hi
 }
 
 /* Bits of the lights that may reach a primitive. */
-static uint32_t lamps_of(const host_renderer *r, const host_primitive *primitive)
+static uint32_t lamps_of(const host_renderer *r, const host_mesh *mesh, const host_primitive *primitive)
 {
     uint32_t bits = 0;
+    const float *low, *high;
+    const bool known = host_mesh_bounds(mesh, primitive, &low, &high);
     for (uint32_t i = 0; i < r->light_count; i++)
-        bits |= !primitive->still || reaches(&r->lights[i], primitive->low, primitive->high) ? 1u << i : 0;
+        bits |= !known || reaches(&r->lights[i], low, high) ? 1u << i : 0;
     return bits;
 }
 
@@ -97,7 +99,8 @@ typedef struct drawing {
     VkCommandBuffer cmd;
     VkRenderPass pass; /* of the plate or of the mirror */
     VkPipeline bound;
-    bool still; /* without what moves */
+    const host_cull *cull; /* NULL: all is drawn */
+    bool still;            /* without what moves */
     bool failed;
     char *error;
     size_t error_size;
@@ -131,12 +134,13 @@ static void draw_indices(drawing *d, host_pipeline kind, bool two_sided, uint32_
 /* Whether the contact map, where the ground's height is looked up for water that climbs, may reach a primitive. */
 static bool is_near(const host_renderer *r, const host_mesh *mesh, const host_primitive *primitive)
 {
-    const float *low = primitive->still ? primitive->low : mesh->low;
-    const float *high = primitive->still ? primitive->high : mesh->high;
+    const float *low, *high;
     bool near = true;
+    if (!host_mesh_bounds(mesh, primitive, &low, &high))
+        return true;
     for (int axis = 0; axis < 3; axis += 2)
-        near = near && (double)low[axis] < r->eye_m[axis] + CLIMB_NEAR_M &&
-               (double)high[axis] > r->eye_m[axis] - CLIMB_NEAR_M;
+        near = near && (double)low[axis] < r->cull.eye_m[axis] + CLIMB_NEAR_M &&
+               (double)high[axis] > r->cull.eye_m[axis] - CLIMB_NEAR_M;
     return near;
 }
 
@@ -191,6 +195,12 @@ static void draw_primitive(drawing *d, const host_mesh *mesh, const host_primiti
                  primitive->first_index, primitive->index_count);
 }
 
+static bool is_hidden(const drawing *d, const host_mesh *mesh, const host_primitive *primitive)
+{
+    const float *low, *high;
+    return d->cull && host_mesh_bounds(mesh, primitive, &low, &high) && host_cull_hides(d->cull, low, high);
+}
+
 static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
 {
     const host_renderer *r = d->renderer;
@@ -201,12 +211,12 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const host_primitive *primitive = &mesh->primitives[i];
         const host_material *material = &mesh->materials[primitive->material];
-        if (!is_drawn_by(material, kind))
+        if (!is_drawn_by(material, kind) || is_hidden(d, mesh, primitive))
             continue;
         struct host_surface_gpu surface;
         const bool never_shared = mesh->moves && (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID);
         const uint32_t id = never_shared ? HOST_REUSE_MOVES : entry->first_id + i;
-        fill_surface(primitive, material, id, lamps_of(r, primitive), &surface);
+        fill_surface(primitive, material, id, lamps_of(r, mesh, primitive), &surface);
         vkCmdPushConstants(d->cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);
@@ -558,7 +568,11 @@ static host_camera mirror_camera(const host_camera *camera, uint32_t share)
 static bool draw_mirror(host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
                         const host_camera *camera, char *error, size_t error_size)
 {
-    drawing d = {.renderer = r, .cmd = cmd, .pass = r->mirror.pass, .error = error, .error_size = error_size};
+    host_cull cull = {.mirrored = true, .mirror_m = r->mirror_m};
+    drawing d = {
+        .renderer = r, .cmd = cmd, .pass = r->mirror.pass, .cull = &cull, .error = error, .error_size = error_size};
+    memcpy(cull.clip_from_relative, r->mirror_clip, sizeof cull.clip_from_relative);
+    memcpy(cull.eye_m, r->mirror_eye_m, sizeof cull.eye_m);
     host_label_begin(r->device, cmd, "mirror");
     bind_frame(r, cmd);
     host_mirror_begin(&r->mirror, cmd);
@@ -589,11 +603,18 @@ static bool record_mirror(host_renderer *r, VkCommandBuffer cmd, const host_targ
     return r->mirror_drawn;
 }
 
+/* What the frame's camera sees. */
+static void look(host_renderer *r, const host_camera *camera, const struct host_frame_gpu *frame)
+{
+    r->cull = (host_cull){.mirrored = false};
+    memcpy(r->cull.clip_from_relative, frame->clip_from_relative, sizeof r->cull.clip_from_relative);
+    memcpy(r->cull.eye_m, camera->position_m, sizeof r->cull.eye_m);
+}
+
 /* Up to where water may climb: a little above the highest ground that is near. */
 static void find_foot(host_renderer *r, const host_camera *camera)
 {
     double ground_m[2];
-    memcpy(r->eye_m, camera->position_m, sizeof r->eye_m);
     r->foot_m = -DBL_MAX;
     if (!r->ground.cells || !r->has_contact || !r->has_meniscus)
         return;
@@ -617,6 +638,7 @@ static bool begin_plate(host_renderer *r, VkCommandBuffer cmd, const host_target
     find_foot(r, camera);
     host_renderer_fill_frame(r, target, camera, previous, &frame);
     host_renderer_look_at_mirror(r, camera, &frame);
+    look(r, camera, &frame);
     record_frame(r, cmd, &frame);
     host_label_begin(r->device, cmd, label);
     bind_frame(r, cmd);
@@ -695,7 +717,12 @@ static void draw_first(drawing *d, const host_target *target, const host_camera 
 bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                          const host_camera *previous, char *error, size_t error_size)
 {
-    drawing d = {.renderer = r, .cmd = cmd, .pass = target->plate_pass, .error = error, .error_size = error_size};
+    drawing d = {.renderer = r,
+                 .cmd = cmd,
+                 .pass = target->plate_pass,
+                 .cull = &r->cull,
+                 .error = error,
+                 .error_size = error_size};
     if (!begin_plate(r, cmd, target, camera, previous, "plate", error, error_size))
         return false;
     const bool shares = may_share(r, target, camera);
@@ -710,8 +737,13 @@ bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
 bool host_renderer_draw_still(host_renderer *r, VkCommandBuffer cmd, const host_target *target,
                               const host_camera *camera, bool scene, char *error, size_t error_size)
 {
-    drawing d = {
-        .renderer = r, .cmd = cmd, .pass = target->plate_pass, .still = true, .error = error, .error_size = error_size};
+    drawing d = {.renderer = r,
+                 .cmd = cmd,
+                 .pass = target->plate_pass,
+                 .cull = &r->cull,
+                 .still = true,
+                 .error = error,
+                 .error_size = error_size};
     struct host_frame_gpu frame;
     const uint32_t cells = r->ground.cells;
     const bool has_walls = r->has_walls;
@@ -722,6 +754,7 @@ bool host_renderer_draw_still(host_renderer *r, VkCommandBuffer cmd, const host_
     if (scene)
         update_skylight(r, cmd, camera);
     host_renderer_fill_frame(r, target, camera, camera, &frame);
+    look(r, camera, &frame);
     record_frame(r, cmd, &frame);
     host_label_begin(r->device, cmd, "surroundings");
     bind_frame(r, cmd);

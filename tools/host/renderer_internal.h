@@ -3,6 +3,7 @@
 #define VIRGA_HOST_RENDERER_INTERNAL_H
 
 #include "contact.h"
+#include "cull.h"
 #include "descriptors.h"
 #include "mirror.h"
 #include "renderer.h"
@@ -88,9 +89,9 @@ struct host_renderer {
     host_contact contact;
     bool has_contact;
     bool has_meniscus;
-    double eye_m[3]; /* of the camera that the plate is drawn with */
-    double foot_m;   /* water climbs nothing above; -DBL_MAX: nothing */
-    bool has_walls;  /* else all walls are dry */
+    host_cull cull; /* of the camera that the plate is drawn with */
+    double foot_m;  /* water climbs nothing above; -DBL_MAX: nothing */
+    bool has_walls; /* else all walls are dry */
     virga_walls walls;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];
