@@ -166,6 +166,20 @@ static inline bool plate_open(plate_scene *p, uint32_t width, uint32_t height, c
            host_drawn_create(width, height, &p->picture, error, size);
 }
 
+/* Adds a flat mesh of two triangles, with one normal. */
+static inline bool plate_add_quad(plate_scene *p, const float corners[4][3], const float normal[3],
+                                  const host_material *material, host_mesh *mesh)
+{
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_vertex v[4] = {{.uv = {0}}};
+    for (int i = 0; i < 4; i++) {
+        memcpy(v[i].position, corners[i], sizeof v[i].position);
+        memcpy(v[i].normal, normal, sizeof v[i].normal);
+    }
+    return host_mesh_create(&p->base.device, v, 4, indices, 6, material, mesh, p->base.error, sizeof p->base.error) &&
+           host_renderer_add(p->renderer, mesh, p->base.error, sizeof p->base.error);
+}
+
 /* Before the meshes are destroyed, and these before fixture_tear_down. */
 static inline void plate_close(plate_scene *p)
 {

@@ -110,19 +110,10 @@ static void boxes_with_a_point_that_is_seen_are_not_hidden(void **state)
 static bool build(void *zeroed)
 {
     scene *s = zeroed;
-    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    static const float corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static const float corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, out[3] = {0, 0, 1};
     const host_environment_def night = {.intensity = 1};
     const host_material material = {.base_color = {1, 1, 1, 1}, .roughness = 1};
-    host_vertex v[4] = {{.uv = {0}}};
-    for (int i = 0; i < 4; i++) {
-        memcpy(v[i].position, corners[i], sizeof v[i].position);
-        v[i].normal[2] = 1;
-    }
-    return plate_open(&s->plate, SIDE, SIDE, &night) &&
-           host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, &s->quad, s->plate.base.error,
-                            sizeof s->plate.base.error) &&
-           host_renderer_add(s->plate.renderer, &s->quad, s->plate.base.error, sizeof s->plate.base.error);
+    return plate_open(&s->plate, SIDE, SIDE, &night) && plate_add_quad(&s->plate, corners, out, &material, &s->quad);
 }
 
 static int set_up(void **state)

@@ -34,19 +34,10 @@ typedef struct scene {
 
 static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const float normal[3], float roughness)
 {
-    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    host_vertex v[4] = {{.uv = {0}}};
-    host_material material = {
-        .base_color = {0, 0, 0, 1}, .roughness = roughness, .base_texture = -1, .emissive_texture = -1};
+    host_material material = {.base_color = {0, 0, 0, 1}, .roughness = roughness};
     for (int i = 0; i < 3 && mesh == &s->ground; i++)
         material.base_color[i] = (float)albedo[i];
-    for (int i = 0; i < 4; i++) {
-        memcpy(v[i].position, corners[i], sizeof v[i].position);
-        memcpy(v[i].normal, normal, sizeof v[i].normal);
-    }
-    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
-                            sizeof s->plate.base.error) &&
-           host_renderer_add(s->plate.renderer, mesh, s->plate.base.error, sizeof s->plate.base.error);
+    return plate_add_quad(&s->plate, corners, normal, &material, mesh);
 }
 
 /* 5 mm of water without waves. */

@@ -181,19 +181,10 @@ static void pixels_of_a_column_have_all_of_the_strip(void **state)
 
 static bool add_quad(scene *s, host_mesh *mesh, const float corners[4][3], const float normal[3])
 {
-    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    host_vertex v[4] = {{.uv = {0}}};
-    host_material material = {
-        .base_color = {0, 0, 0, 1}, .roughness = 1, .base_texture = -1, .emissive_texture = -1, .two_sided = true};
-    for (int i = 0; i < 4; i++) {
-        memcpy(v[i].position, corners[i], sizeof v[i].position);
-        memcpy(v[i].normal, normal, sizeof v[i].normal);
-    }
+    host_material material = {.base_color = {0, 0, 0, 1}, .roughness = 1, .two_sided = true};
     if (mesh == &s->wall)
         material.emissive[0] = material.emissive[1] = 1;
-    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, mesh, s->plate.base.error,
-                            sizeof s->plate.base.error) &&
-           host_renderer_add(s->plate.renderer, mesh, s->plate.base.error, sizeof s->plate.base.error);
+    return plate_add_quad(&s->plate, corners, normal, &material, mesh);
 }
 
 /* Level ground under the water of a map of wetness. */

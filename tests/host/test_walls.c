@@ -29,22 +29,9 @@ typedef struct scene {
 static bool add_quad(scene *s, uint32_t index, const float corners[4][3], const float normal[3], float roughness,
                      float metallic)
 {
-    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    const host_material material = {.base_color = {ALBEDO, ALBEDO, ALBEDO, 1},
-                                    .roughness = roughness,
-                                    .metallic = metallic,
-                                    .base_texture = -1,
-                                    .emissive_texture = -1,
-                                    .two_sided = true};
-    host_vertex v[4] = {{.uv = {0}}};
-    for (int i = 0; i < 4; i++) {
-        memcpy(v[i].position, corners[i], sizeof v[i].position);
-        memcpy(v[i].normal, normal, sizeof v[i].normal);
-    }
-    char *error = s->plate.base.error;
-    return host_mesh_create(&s->plate.base.device, v, 4, indices, 6, &material, &s->meshes[index], error,
-                            sizeof s->plate.base.error) &&
-           host_renderer_add(s->plate.renderer, &s->meshes[index], error, sizeof s->plate.base.error);
+    const host_material material = {
+        .base_color = {ALBEDO, ALBEDO, ALBEDO, 1}, .roughness = roughness, .metallic = metallic, .two_sided = true};
+    return plate_add_quad(&s->plate, corners, normal, &material, &s->meshes[index]);
 }
 
 static bool build(void *zeroed)

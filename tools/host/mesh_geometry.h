@@ -30,7 +30,7 @@ bool host_mesh_build_geometry(host_mesh_build *build, const float world_from_mod
  * what water may climb is then a small part of a wall. */
 bool host_mesh_cut_feet(host_mesh_build *build);
 
-/* Sorts the indices of each primitive, see host_primitive.level_count, the steep ones by host_mesh.feet. */
+/* Sorts the indices of each primitive by kind of triangle (host_primitive.level_count), then by host_mesh.feet. */
 bool host_mesh_sort_level(host_mesh_build *build);
 
 /* Fills materials and pictures. */
