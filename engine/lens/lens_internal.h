@@ -2,7 +2,8 @@
  *
  *   lens.c           create, destroy, settings, queries
  *   lens_aperture.c  the area of the aperture's image on a grid of pixels
- *   lens_draw.c      prepare, draw
+ *   lens_prepare.c   prepare
+ *   lens_draw.c      draw
  */
 #ifndef VIRGA_LENS_LENS_INTERNAL_H
 #define VIRGA_LENS_LENS_INTERNAL_H

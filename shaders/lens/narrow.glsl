@@ -61,7 +61,7 @@ layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 #ifdef WIDE_PASS
 layout(set = 0, binding = 33, rgba16f) uniform writeonly image2DArray coarse_fields;
 #else
-layout(set = 0, binding = 36, r32ui) uniform writeonly uimage2D packed_far; // see is_packed in lens_draw.c
+layout(set = 0, binding = 36, r32ui) uniform writeonly uimage2D packed_far; // see is_packed in lens_prepare.c
 #include "shared_exponent.glsl"
 #endif
 
