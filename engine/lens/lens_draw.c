@@ -1,7 +1,6 @@
 /* lens/lens_draw.c - draw copies a prepared picture into a target, or blends over it what is out of focus. */
 #include "lens/lens_internal.h"
 
-#include "core/settings.h"
 #include "gpu/builds.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"

@@ -1,14 +1,10 @@
 /* lens/lens_prepare.c - prepare blurs a picture. */
 #include "lens/lens_internal.h"
 
-#include "core/settings.h"
-#include "gpu/builds.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
 #include "gpu/view.h"
-
-#include "shaders/lens_shaders.h"
 
 #include <math.h>
 
