@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#define VIRGA_MAX_BINDINGS 40
+#define VIRGA_MAX_BINDINGS 44
 #define VIRGA_ALL_STAGES   (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
 
 /* What a binding is bound to, if it is a member of the effect's object. */

@@ -125,10 +125,12 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE | VIRGA_USE_UNIFORM, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL, .per_view = true},
+    {"lens.focused", AT(focused), VIRGA_USE_STORAGE | VIRGA_USE_UNIFORM, DEVICE, .head = sizeof(virga_lens_state_gpu),
+     .first = VIRGA_FIRST_FILL, .per_view = true, .scratch = true},
     {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_lens_tile_gpu), .count = COUNT_TILES,
      .first = VIRGA_FIRST_FILL, .scratch = true},
     {"lens.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = VIRGA_LENS_LISTS * sizeof(virga_lens_list_gpu),
-     .entry = VIRGA_LENS_TILE_LISTS * sizeof(uint32_t), .count = COUNT_TILES, .per_view = true},
+     .entry = VIRGA_LENS_TILE_WORDS * sizeof(uint32_t), .count = COUNT_TILES, .per_view = true},
     {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = 4 * sizeof(float), .count = COUNT_TILES},
 };
 
@@ -148,9 +150,9 @@ static const virga_effect_image images[] = {
     {"lens.blocks", AT(blocks), VK_FORMAT_R32G32B32A32_UINT, COLOR, WRITTEN, COUNT_BLOCK_COLUMNS, COUNT_BLOCK_ROWS,
      VIRGA_LENS_BLOCK_KINDS *VIRGA_LENS_BLOCK_PARTS, VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
-     VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
+     VIRGA_LENS_NEAR_CIRCLES + 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.coarse_fields", AT(coarse), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COARSE_COLUMNS,
-     COUNT_COARSE_ROWS, VIRGA_LENS_FIRST_LAYER, VIRGA_FIRST_STORAGE, .per_view = true},
+     COUNT_COARSE_ROWS, VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.packed_far", AT(packed), VK_FORMAT_R32_UINT, COLOR, WRITTEN, COUNT_PACKED_COLUMNS, COUNT_PACKED_ROWS, 1,
      VIRGA_FIRST_STORAGE, .per_view = true, .seen_as = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -190,18 +192,22 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    SAMPLED_IMAGE(COMPUTE, spreads),                 /* 25 */
-    {SAMPLED, COMPUTE},                              /* 26 color of the layer on the scene */
-    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},          /* 27 */
-    BUFFER_IN(COMPUTE | VERTEX, lists),              /* 28 */
-    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(state)}, /* 29: words of a uniform block are cheaper */
-    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},         /* 30 */
-    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},   /* 31 */
-    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},           /* 32: the first image of fields, or packed */
-    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},   /* 33 */
-    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},   /* 34 */
-    [LENS_BIND_COARSE_FAR] = {SAMPLED, FRAGMENT},    /* 35 */
-    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},   /* 36 */
+    SAMPLED_IMAGE(COMPUTE, spreads),                      /* 25 */
+    {SAMPLED, COMPUTE},                                   /* 26 color of the layer on the scene */
+    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},               /* 27 */
+    BUFFER_IN(COMPUTE | VERTEX, lists),                   /* 28 */
+    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(focused)},    /* 29: words of a uniform block are cheaper */
+    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},              /* 30 */
+    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},        /* 31 */
+    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},                /* 32: the first image of fields, or packed */
+    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},        /* 33 */
+    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},        /* 34 */
+    [LENS_BIND_COARSE_FAR] = {SAMPLED, FRAGMENT},         /* 35 */
+    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},        /* 36 */
+    [LENS_BIND_FIRST_LAYER] = {SAMPLED, FRAGMENT},        /* 37 */
+    [LENS_BIND_FIRST_COARSE_LAYER] = {SAMPLED, FRAGMENT}, /* 38 */
+    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},             /* 39 */
+    [LENS_BIND_FOCUS_WRITTEN] = BUFFER(focused),          /* 40 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -218,6 +224,8 @@ static const virga_effect_pass passes[] = {
     PASS(gather, .forms = LENS_GATHERS),
     PASS(narrow, .forms = LENS_NARROWS),
     PASS(wide, .forms = LENS_NARROWS),
+    PASS(narrow_plane, .forms = LENS_LAYER_SCALES),
+    PASS(narrow_depths, .forms = LENS_LAYER_SCALES),
     PASS(layer_sample, .forms = VIRGA_LENS_LAYERS),
     PASS(layer, .forms = LENS_LAYER_FORMS),
     PASS(combine, .forms = VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)),
@@ -237,7 +245,7 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
-#define NARROW_SHARED_BYTES 24704 /* of shared memory, in shaders/lens/narrow.glsl */
+#define NARROW_SHARED_BYTES 27216 /* of shared memory, in shaders/lens/narrow_layer.glsl; narrow.glsl has less */
 
 static bool has_memory(const virga_context *context)
 {
@@ -259,6 +267,8 @@ lens_way lens_way_of(const virga_lens *lens, const virga_lens_settings *settings
 static bool narrow_form_used(const virga_lens *lens, lens_way way, size_t member, uint32_t form)
 {
     const bool alone = form & VIRGA_LENS_ALONE;
+    if (member == AT(narrow_plane) || member == AT(narrow_depths))
+        return way == LENS_WAY_WIDE || (way == LENS_WAY_NARROW && !(form & VIRGA_LENS_QUARTER));
     if (member == AT(narrow))
         return way == LENS_WAY_NARROW && (!alone || lens->def.in_place);
     return way == LENS_WAY_WIDE && alone;
@@ -289,7 +299,7 @@ static bool form_used(const void *object, const void *given, const virga_effect_
         return settings->style == VIRGA_LENS_STYLE_PAPER;
     if (member == AT(combine) && lens->def.in_place)
         return false;
-    if (member == AT(narrow) || member == AT(wide))
+    if (member == AT(narrow) || member == AT(wide) || member == AT(narrow_plane) || member == AT(narrow_depths))
         return narrow_form_used(lens, lens_way_of(lens, settings), member, form);
     if (member != AT(tile) && member != AT(combine))
         return true;

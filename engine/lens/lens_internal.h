@@ -34,15 +34,20 @@ enum {
     LENS_BIND_COARSE_NEAR,
     LENS_BIND_COARSE_FAR,
     LENS_BIND_PACKED_WRITTEN,
+    LENS_BIND_FIRST_LAYER,
+    LENS_BIND_FIRST_COARSE_LAYER,
+    LENS_BIND_COARSE,
+    LENS_BIND_FOCUS_WRITTEN,
     LENS_BINDINGS,
 };
 
 /* Pipelines of passes. */
 enum {
-    LENS_SAMPLES = 4,     /* by VIRGA_LENS_LINEAR and _ON_SCENE */
-    LENS_GATHERS = 8,     /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
-    LENS_LAYER_FORMS = 4, /* by VIRGA_LENS_SHAPED and _DEPTHS */
-    LENS_NARROWS = 8,     /* by VIRGA_LENS_SHAPED, _NARROW_LINEAR and _ALONE */
+    LENS_SAMPLES = 4,      /* by VIRGA_LENS_LINEAR and _ON_SCENE */
+    LENS_GATHERS = 8,      /* by VIRGA_LENS_SHAPED, _ON_SCENE and _NO_NEAR */
+    LENS_LAYER_FORMS = 4,  /* by VIRGA_LENS_SHAPED and _DEPTHS */
+    LENS_NARROWS = 8,      /* by VIRGA_LENS_SHAPED, _NARROW_LINEAR and _ALONE */
+    LENS_LAYER_SCALES = 4, /* by VIRGA_LENS_SHAPED and _QUARTER */
 };
 
 /* What is known of the newest prepare of each view besides virga_effect_view. */
@@ -62,6 +67,7 @@ struct virga_lens {
     float areas[VIRGA_LENS_SPREADS];
 
     VIRGA_PER_VIEW(virga_buffer, state);
+    VIRGA_PER_VIEW(virga_buffer, focused); /* a copy of it, see shaders/lens/focus.comp */
     virga_buffer *tiles, *reaches;
     VIRGA_PER_VIEW(virga_buffer, lists);     /* tiles to draw, if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, picture); /* NULL if def.in_place */
@@ -75,9 +81,9 @@ struct virga_lens {
     virga_bindings *bindings;
     virga_pipeline *focus, *aperture_reach, *sample[LENS_SAMPLES], *tile[VIRGA_LENS_LAYERS + 1], *reach,
         *block[VIRGA_LENS_BLOCK_FORMS], *gather[LENS_GATHERS], *narrow[LENS_NARROWS], *wide[LENS_NARROWS],
-        *layer_sample[VIRGA_LENS_LAYERS], *layer[LENS_LAYER_FORMS],
-        *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)], *paper[2 * (VIRGA_LENS_LAYERS + 1)],
-        *circle[VIRGA_LENS_LAYERS + 1];
+        *narrow_plane[LENS_LAYER_SCALES], *narrow_depths[LENS_LAYER_SCALES], *layer_sample[VIRGA_LENS_LAYERS],
+        *layer[LENS_LAYER_FORMS], *combine[VIRGA_LENS_COMBINE_FORMS * (VIRGA_LENS_LAYERS + 1)],
+        *paper[2 * (VIRGA_LENS_LAYERS + 1)], *circle[VIRGA_LENS_LAYERS + 1];
     virga_lens_stats stats;
 };
 

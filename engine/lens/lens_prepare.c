@@ -163,6 +163,32 @@ static void find_sharp(virga_lens_gpu *view)
     view->all_sharp = sharp_scene && view->sharp_layers == (1u << view->layers) - 1;
 }
 
+/* Whether discs, of the scene and of layers, are gathered by passes of their own each, which wait for none. */
+static bool is_direct(const virga_lens *lens, const virga_lens_gpu *view)
+{
+    return !view->on_scene && lens_way_of(lens, &lens->settings) != LENS_WAY_ANY;
+}
+
+/* From which scales a layer comes, see coarseness in shaders/lens/lens.glsl. */
+static void choose_scales(const virga_lens *lens, virga_lens_gpu *view, uint32_t layer)
+{
+    const uint32_t bit = 1u << layer;
+    const bool wide = lens_way_of(lens, &lens->settings) == LENS_WAY_WIDE;
+    const bool known = view->layer_inv_m[layer] > 0 && !view->follow; /* else the device knows */
+    const float radius_px = view->circle_px_m * fabsf(view->focus_inv_m - view->layer_inv_m[layer]);
+    if (!wide || !known || radius_px < (float)VIRGA_LENS_COARSE_TO)
+        view->fine_layers |= bit;
+    if (wide && (!known || radius_px > (float)VIRGA_LENS_COARSE_FROM))
+        view->coarse_layers |= bit;
+}
+
+static void find_scales(const virga_lens *lens, virga_lens_gpu *view)
+{
+    for (uint32_t i = 0; i < view->layers && is_direct(lens, view); i++)
+        if (!(view->sharp_layers >> i & 1))
+            choose_scales(lens, view, i);
+}
+
 /* How many layers have to be looked at for their depths: up to the last one that has a depth image. */
 static uint32_t depth_layers(const virga_lens_gpu *view)
 {
@@ -179,18 +205,16 @@ static bool is_narrow(const virga_lens *lens, const virga_lens_gpu *view)
     return !view->on_scene && lens_way_of(lens, &lens->settings) == LENS_WAY_NARROW;
 }
 
-/* Whether two do, of which one has what is wide. Layers that are out of focus need the other passes. */
+/* Whether one does that has what is wide as well. */
 static bool is_wide(const virga_lens *lens, const virga_lens_gpu *view)
 {
-    return !view->on_scene && view->sharp_layers == (1u << view->layers) - 1 && !view->all_sharp &&
-           lens_way_of(lens, &lens->settings) == LENS_WAY_WIDE;
+    return !view->on_scene && !view->all_sharp && lens_way_of(lens, &lens->settings) == LENS_WAY_WIDE;
 }
 
-/* Whether no other pass is needed for the scene. Layers with depths need to know what reaches each tile. */
+/* Whether no other pass is needed for the scene. */
 static bool is_alone(const virga_lens *lens, const virga_lens_gpu *view)
 {
-    return is_wide(lens, view) ||
-           (lens->def.in_place && !view->all_sharp && is_narrow(lens, view) && !depth_layers(view));
+    return is_wide(lens, view) || (lens->def.in_place && !view->all_sharp && is_narrow(lens, view));
 }
 
 static virga_result push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
@@ -205,6 +229,7 @@ static virga_result push_view(virga_lens *lens, const virga_view *view, const vi
         filled->on_scene = layers[i].on_scene ? i + 1 : filled->on_scene;
     }
     find_sharp(filled);
+    find_scales(lens, filled);
     const virga_result result = virga_effect_push_view(&lens->base, "virga_lens_prepare", &lens->view_ring, filled,
                                                        sizeof *filled, index, offset);
     const uint32_t tiles = filled->tile_columns * filled->tile_rows;
@@ -271,6 +296,10 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_COARSE_WRITTEN] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
     bound[LENS_BIND_COARSE_NEAR] = one_of(lens->coarse, VIRGA_LENS_NEAR, out, context->linear);
     bound[LENS_BIND_COARSE_FAR] = one_of(lens->coarse, VIRGA_LENS_FAR, out, context->linear);
+    bound[LENS_BIND_COARSE] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
+    bound[LENS_BIND_FIRST_LAYER] =
+        one_of(lens->def.circles ? NULL : lens->fields, VIRGA_LENS_FIRST_LAYER, out, context->linear);
+    bound[LENS_BIND_FIRST_COARSE_LAYER] = one_of(lens->coarse, VIRGA_LENS_FIRST_LAYER, out, context->linear);
     if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
         bound[LENS_BIND_FOCUS] =
             (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};
@@ -397,10 +426,39 @@ static void record_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     }
 }
 
+enum { TILES = 2 }; /* of a workgroup, beside each other */
+
+/* A layer at one scale. It is not waited for. */
+static void over_layer(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t layer, uint32_t form)
+{
+    virga_context *context = lens->base.context;
+    const uint32_t side = form & VIRGA_LENS_QUARTER ? 2 : 1; /* of a tile, in those of half resolution */
+    const virga_pipeline *pipeline =
+        view->layer_inv_m[layer] > 0 ? lens->narrow_plane[form] : lens->narrow_depths[form];
+    virga_dispatch_2d(context, cmd, pipeline, virga_groups_of(view->tile_columns, TILES * side),
+                      virga_groups_of(view->tile_rows, side));
+}
+
+/* All layers that are out of focus. Passes over them and over the scene need nothing of each other. */
+static void record_direct_layers(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
+{
+    virga_context *context = lens->base.context;
+    if (!(view->fine_layers | view->coarse_layers))
+        return;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.layers");
+    for (uint32_t i = 0; i < view->layers; i++) {
+        context->vk.CmdPushConstants(cmd, lens->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof i, &i);
+        if (view->fine_layers >> i & 1)
+            over_layer(lens, cmd, view, i, shaped);
+        if (view->coarse_layers >> i & 1)
+            over_layer(lens, cmd, view, i, shaped | VIRGA_LENS_QUARTER);
+    }
+    virga_pass_end(context, cmd, scope);
+}
+
 /* Reaches, lists and the gather in one pass, or tiles as well. */
 static void record_narrow(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
-    enum { TILES = 2 }; /* of a workgroup, beside each other */
     virga_context *context = lens->base.context;
     const bool wide = is_wide(lens, view);
     const uint32_t form =
@@ -421,18 +479,18 @@ static void record_aperture(virga_lens *lens, VkCommandBuffer cmd, const virga_l
                       virga_groups_of(VIRGA_LENS_AREA_ROWS + (shaped ? 2 * radius + 1 : 0), GROUP));
 }
 
-/* The fields, if one pass makes them. Without layers it needs no image of an aperture that is a disc. */
+/* The fields, if one pass makes each. They need no image of an aperture that is a disc. */
 static void record_alone(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view, uint32_t shaped)
 {
     virga_context *context = lens->base.context;
-    if (shaped || view->layers) {
+    if (shaped) {
         const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.aperture");
         record_aperture(lens, cmd, view, shaped);
         virga_compute_barrier(context, cmd);
         virga_pass_end(context, cmd, scope);
     }
+    record_direct_layers(lens, cmd, view, shaped);
     record_narrow(lens, cmd, view, shaped);
-    record_layers(lens, cmd, view, shaped);
 }
 
 /* The fields: what is out of focus, for each texel. */
@@ -446,13 +504,13 @@ static void record_fields(virga_lens *lens, VkCommandBuffer cmd, const virga_len
     }
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
     record_aperture(lens, cmd, view, shaped);
-    virga_dispatch_2d(context, cmd, lens->tile[lens_layer_form(lens, depth_layers(view))], view->tile_columns,
-                      view->tile_rows);
+    const uint32_t layers = is_narrow(lens, view) ? 0 : depth_layers(view);
+    virga_dispatch_2d(context, cmd, lens->tile[lens_layer_form(lens, layers)], view->tile_columns, view->tile_rows);
     virga_compute_barrier(context, cmd);
     if (is_narrow(lens, view)) {
         virga_pass_end(context, cmd, scope);
+        record_direct_layers(lens, cmd, view, shaped);
         record_narrow(lens, cmd, view, shaped);
-        record_layers(lens, cmd, view, shaped);
         return;
     }
     virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));

@@ -12,6 +12,12 @@
 #endif
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
+#ifndef LAYER_IS_THERE // draws in place know where a layer has nothing, and where nothing of it is in focus
+#define LAYER_IS_THERE(layer) true
+#define LAYER_IS_SEEN(layer)  true
+#define NEAR_IS_THERE         true
+#define layer_field(layer)    field(VIRGA_LENS_FIRST_LAYER + layer)
+#endif
 
 ivec2 pixel;  // in the target
 vec2 sampled; // texture coordinates in the fields
@@ -82,10 +88,14 @@ float layer_radius(uint layer)
 
 vec4 layer_at(uint layer, float radius)
 {
-    const vec4 color = layer_color(layer, pixel);
+    vec4 color = vec4(0.0);
+    if (LAYER_IS_SEEN(layer))
+        color = layer_color(layer, pixel);
     if (ALL_SHARP || (view.sharp_layers >> layer & 1u) != 0u)
         return color;
-    const vec4 from_field = field(VIRGA_LENS_FIRST_LAYER + layer);
+    const vec4 from_field = layer_field(layer);
+    if (!LAYER_IS_SEEN(layer))
+        return from_field / max(from_field.a, 1.0);
     if (!HALVED || view.layer_inv_m[layer] > 0.0)
         return blurred(color, from_field, radius);
     // The field has what is out of focus alone (layer_mean), also where this pixel is empty or in focus.

@@ -346,7 +346,7 @@ float share_in_far(gatherer to)
 // a wide disc behind the focus has the coarse field as well, since draws read between it and those in front of it.
 //
 // Coarse fields are being made by other workgroups now, so it is the draw that adds them: the fourth component says how
-// much of them. No layer needs it for what is near, as all layers are in focus here.
+// much of them. What layers need of the near field, its circle of confusion, is beside it (VIRGA_LENS_NEAR_CIRCLES).
 vec4 fill_of_both(gatherer to, vec3 behind, vec4 filled)
 {
     const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));
@@ -403,6 +403,10 @@ void gather_texel(ivec2 texel, vec2 reach, uint levels, vec4 known)
 #ifdef WIDE_PASS
     if (FINER)
         stored = fill_of_both(to, behind, filled);
+    finer_circle = near_circle;
 #endif
     store(texel, stored, near.scene, on);
+#ifdef WIDE_PASS
+    finer_circle = 0.0;
+#endif
 }

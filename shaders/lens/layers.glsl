@@ -55,15 +55,54 @@ float layer_depth(uint layer, ivec2 pixel)
     }
 }
 
-// The signed circle of confusion (texels) of a layer at a texel: of the nearest of its pixels.
+// Four pixels beside each other, in rows: `low` is the first of them, and `high` the last one. Not finite yet.
+struct layer_four {
+    vec4 a, b, c, d;
+};
+
+layer_four four_of(sampler2D image, ivec2 low, ivec2 high)
+{
+    return layer_four(texelFetch(image, low, 0), texelFetch(image, ivec2(high.x, low.y), 0),
+                      texelFetch(image, ivec2(low.x, high.y), 0), texelFetch(image, high, 0));
+}
+
+layer_four layer_colors(uint layer, ivec2 low, ivec2 high)
+{
+    switch (layer) {
+    case 0u: return four_of(layer_color_0, low, high);
+    case 1u: return four_of(layer_color_1, low, high);
+    case 2u: return four_of(layer_color_2, low, high);
+    case 3u: return four_of(layer_color_3, low, high);
+    default: return four_of(layer_color_4, low, high);
+    }
+}
+
+vec4 depths_of_four(layer_four four) { return vec4(four.a.r, four.b.r, four.c.r, four.d.r); }
+
+vec4 layer_depths(uint layer, ivec2 low, ivec2 high)
+{
+    switch (layer) {
+    case 0u: return depths_of_four(four_of(layer_depth_0, low, high));
+    case 1u: return depths_of_four(four_of(layer_depth_1, low, high));
+    case 2u: return depths_of_four(four_of(layer_depth_2, low, high));
+    case 3u: return depths_of_four(four_of(layer_depth_3, low, high));
+    default: return depths_of_four(four_of(layer_depth_4, low, high));
+    }
+}
+
+// The signed circle of confusion (texels) of a layer at a texel: of the nearest of its pixels, or of those that have a
+// part in the blurred image.
 float layer_circle(uint layer, ivec2 texel)
 {
     if (view.layer_inv_m[layer] > 0.0)
         return circle(view.layer_inv_m[layer]);
-    float nearest = 1e9;
-    for (uint i = 0u; i < STEP * STEP; i++)
-        nearest = min(nearest, circle(inverse_depth(layer_depth(layer, pixel_of(texel, i)))));
-    return nearest;
+    float nearest = 1e9, nearest_blurred = 1e9;
+    for (uint i = 0u; i < STEP * STEP; i++) {
+        const float radius = circle(inverse_depth(layer_depth(layer, pixel_of(texel, i))));
+        nearest = min(nearest, radius);
+        nearest_blurred = blurriness(radius * float(STEP)) > 0.0 ? min(nearest_blurred, radius) : nearest_blurred;
+    }
+    return nearest_blurred < 1e9 ? nearest_blurred : nearest;
 }
 
 // The mean of a layer's pixels in a texel. At half resolution, of a layer with a depth for each pixel, the part of each

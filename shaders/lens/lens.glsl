@@ -22,6 +22,9 @@ const uint OWN_FORM = FORM & 255u;
 bool COARSE; // it is at a quarter now
 #define FINER           (!COARSE)
 #define BY_SCALE(a, b)  (COARSE ? a : b)
+#elif defined(OF_ONE_SCALE) // a pass with a form for each
+const bool COARSE = (OWN_FORM & VIRGA_LENS_QUARTER) != 0u;
+#define BY_SCALE(a, b)  (COARSE ? a : b)
 #else
 #define COARSE          false
 #define FINER           false

@@ -2,11 +2,11 @@
 // wider than VIRGA_LENS_FINE texels and no layer lies on the scene. In a small picture each wait for the pass before
 // costs as much as the pass does. And samples that are read 50 times are read from shared memory.
 //
-// ALONE (in place, and no layer has depths) it does what tile.comp does as well: a workgroup looks itself at all depths
+// ALONE (in place) it does what tile.comp does as well: a workgroup looks itself at all depths
 // from which a disc may reach its tiles. Then it is the only pass before the draw. It gives each tile its kind, in an
 // entry of its own in place of lists, which somebody would have to empty first.
 //
-// Wider discs (in place, no layer out of focus) come from the same pass at a quarter of the resolution: COARSE, whose
+// Wider discs (in place) come from the same pass at a quarter of the resolution: COARSE, whose
 // texels have 4 x 4 pixels. A disc of 22 px is 5.5 texels there, as smooth as one of 11 px at half resolution. Where
 // discs are narrower than VIRGA_LENS_COARSE_FROM px all comes from half resolution (FINER), and from
 // VIRGA_LENS_COARSE_TO px on all from a quarter, so that nothing pops as a disc grows. A texel in front of the focus
@@ -106,6 +106,7 @@ float spread_in(int row, ivec2 texel) { return uintBitsToFloat(kept[row + texel.
 
 #ifdef WIDE_PASS
 float finer_nearness, all_nearness; // of the samples behind a texel: that are not wide, and of all; see fill_of_both
+float finer_circle = 0.0; // (texels) the mean of what is in the near field, which layers are before or behind
 #endif
 
 void write_field(ivec3 at, vec4 value)
@@ -122,6 +123,10 @@ void write_field(ivec3 at, vec4 value)
     }
 #endif
     imageStore(fields, at, value);
+#ifdef WIDE_PASS
+    if (at.z == VIRGA_LENS_NEAR && (view.fine_layers | view.coarse_layers) != 0u)
+        imageStore(fields, ivec3(at.xy, VIRGA_LENS_NEAR_CIRCLES), vec4(finer_circle));
+#endif
 }
 
 bool has_near; // circles of confusion from in front of the focus reach the tile

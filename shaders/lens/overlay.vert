@@ -13,6 +13,7 @@ layout(set = 0, binding = 12) uniform sampler2DArray fields;
 layout(location = 0) flat out uint beside;
 layout(location = 1) flat out vec4 near_limits;
 layout(location = 2) flat out vec4 far_limits;
+layout(location = 3) flat out uint layers_there; // see overlay.frag
 
 // With entries for every tile, one draw has all that are blended, whether they have a near field or not, and one all
 // that overwrite the target.
@@ -41,6 +42,28 @@ vec4 limits_of(uvec2 tile, uvec4 around, uint bit)
     return mix(ends, vec4(vec2(-1.0), vec2(2.0)), notEqual(around.xzyw & bit, uvec4(0u)));
 }
 
+// A layer that is in focus has no words: it may be anywhere, and its own pixels are seen.
+uint word_of_layer(uint layer, uint tile)
+{
+    const uint tiles = view.tile_columns * view.tile_rows, words = tiles * (1u + layer) + tile;
+    if (((view.fine_layers | view.coarse_layers) >> layer & 1u) == 0u)
+        return VIRGA_LENS_LAYER_FINE | VIRGA_LENS_LAYER_SEEN;
+    uint word = 0u;
+    if ((view.fine_layers >> layer & 1u) != 0u)
+        word = listed[words];
+    if ((view.coarse_layers >> layer & 1u) != 0u)
+        word |= listed[words + tiles * VIRGA_LENS_LAYERS];
+    return word;
+}
+
+uint layers_of_tile(uint tile)
+{
+    uint there = 0u;
+    for (uint layer = 0u; layer < view.layers; layer++)
+        there |= word_of_layer(layer, tile) << (VIRGA_LENS_LAYER_BITS * layer);
+    return there;
+}
+
 void main()
 {
     const uint entry = uint(gl_VertexIndex) / VIRGA_LENS_TILE_VERTICES;
@@ -49,11 +72,14 @@ void main()
     uvec2 tile;
     beside = VIRGA_LENS_HAS_NEAR;
     near_limits = far_limits = vec4(vec2(-1.0), vec2(2.0));
+    layers_there = ~0u;
     if ((kind & VIRGA_LENS_EVERY) == 0u) {
         tile = listed_tile(kind, entry);
     } else { // all tiles: those of another kind are drawn nowhere
-        const uint found = listed[entry];
-        if (!is_drawn_as(found & VIRGA_LENS_KIND_MASK, kind & VIRGA_LENS_KIND_MASK)) {
+        const uint found = listed[entry], drawn = kind & VIRGA_LENS_KIND_MASK;
+        layers_there = layers_of_tile(entry);
+        if (!is_drawn_as(found & VIRGA_LENS_KIND_MASK, drawn) ||
+            (drawn == VIRGA_LENS_TILES_SHARP && layers_there == 0u)) {
             gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
             return;
         }

@@ -12,12 +12,13 @@ layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
 layout(location = 0) flat out uint has_near;
 layout(location = 1) flat out vec4 near_limits;
 layout(location = 2) flat out vec4 far_limits;
+layout(location = 3) flat out uint layers_there;
 
 #include "gpu/own_view.glsl"
 
 void main()
 {
-    has_near = 0u;
+    has_near = layers_there = 0u;
     near_limits = far_limits = vec4(0.0);
     gl_Position = vec4(vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0);
 }

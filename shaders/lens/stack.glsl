@@ -14,7 +14,11 @@ void put(uint layer, inout composed sum)
         sum.color = over(layer_at(layer, 0.0), sum.color);
         return;
     }
-    const float radius = layer_radius(layer);
+    if (!LAYER_IS_THERE(layer))
+        return;
+    float radius = 0.0; // where nothing is near and all is from the field, it changes nothing
+    if (NEAR_IS_THERE || LAYER_IS_SEEN(layer))
+        radius = layer_radius(layer);
     if (!sum.near_done && radius < sum.near_px) {
         sum.color = over(sum.near, sum.color);
         sum.near_done = true;

@@ -53,6 +53,7 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_LINEAR        1   /* sample: the host's picture is linear light */
 #define VIRGA_LENS_NARROW_LINEAR 2   /* narrow, wide: likewise */
 #define VIRGA_LENS_ALONE         4   /* narrow, wide: no pass finds tiles, see shaders/lens/narrow.glsl */
+#define VIRGA_LENS_QUARTER       2   /* narrow_plane, narrow_depths: wide discs, at a quarter of the resolution */
 
 /* (half resolution) Tiles by what reaches them. There is a list of each kind, and one of the tiles whose samples are
  * read. */
@@ -102,10 +103,20 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 /* In what a draw has pushed, beside the kind: there are such entries, and no lists. */
 #define VIRGA_LENS_EVERY 256u
 
+/* (narrow) After those entries, a word for each tile, of each layer from half resolution and then of each layer from a
+ * quarter of it: bits. */
+#define VIRGA_LENS_TILE_WORDS   (1 + 2 * VIRGA_LENS_LAYERS)
+#define VIRGA_LENS_LAYER_FINE   1u /* something of the layer reaches the tile, at half resolution */
+#define VIRGA_LENS_LAYER_COARSE 2u /* and at a quarter of it */
+#define VIRGA_LENS_LAYER_SEEN   4u /* the layer's own pixels are seen there, not its field alone */
+#define VIRGA_LENS_LAYER_BITS   3  /* so many for each layer, in what a draw is told of a tile */
+
 /* Layers of the image of fields. */
 #define VIRGA_LENS_FAR         0
 #define VIRGA_LENS_NEAR        1
 #define VIRGA_LENS_FIRST_LAYER 2
+/* (wide) The mean circle of confusion (texels) of what is in the near field. Other passes keep it in the far field. */
+#define VIRGA_LENS_NEAR_CIRCLES (VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS)
 
 /* One view. Pixels are pixels of the picture, unless they are called texels: those are of the work image. */
 struct virga_lens_gpu {
@@ -144,6 +155,8 @@ struct virga_lens_gpu {
     uint all_sharp;         /* nothing is out of focus: there are no fields and no tiles */
     uint sharp_layers;      /* bits of layers that are known to be in focus: they have no field */
     uint color_given;       /* VIRGA_COLOR_..., see view_gpu.h */
+    uint fine_layers;       /* (narrow) bits of layers that have a field at half resolution */
+    uint coarse_layers;     /* (narrow) and at a quarter of it */
     float layer_inv_m[5];   /* 1/m, 1 / depth of a layer without a depth image; 0: it has one */
     float areas[512];       /* texels, areas of the aperture's image, see shaders/lens/spread.glsl */
 };
@@ -182,7 +195,7 @@ struct virga_lens_list_gpu {
 VIRGA_ASSERT_SIZE(virga_lens_tile_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_lens_list_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_lens_list_gpu, vertices, 20);
-VIRGA_ASSERT_SIZE(virga_lens_gpu, 168 + 4 * 512);
+VIRGA_ASSERT_SIZE(virga_lens_gpu, 176 + 4 * 512);
 VIRGA_ASSERT_SIZE(virga_lens_state_gpu, 8);
 #undef uint
 #endif

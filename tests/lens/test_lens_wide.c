@@ -1,32 +1,7 @@
 /* test_lens_wide.c - in place on GPUs, wide discs come from a quarter of the resolution. They look as those of the
  * passes for discs of any width, and nothing pops where one becomes the other. */
 #include "lens_bar.h"
-#include "lens_host.h"
-
-#define WIDTH  192
-#define HEIGHT 112
-#define COUNT  ((size_t)WIDTH * HEIGHT)
-
-/* A depth (m) with a circle of confusion of so many pixels. Less than 0: in front of the focus. */
-static double depth_of(double radius_px)
-{
-    return 1 / (4 - radius_px / 10);
-}
-
-static void open_way(host *h, bool wide)
-{
-    effect_fixture_variants = wide ? VIRGA_VARIANTS_GPU : VIRGA_VARIANTS_SOFTWARE;
-    REQUIRE(open_host(h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
-    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
-    h->f.settings.focus_m = 0.25f;
-    h->f.settings.max_radius_px = 32;
-}
-
-static void run_way(host *h, bool wide)
-{
-    run(h);
-    assert_int_equal(h->f.lens->prepared[0].wide, wide);
-}
+#include "lens_ways.h"
 
 /* A lamp before black, all at one depth. */
 static void paint_lamp(const lens_picture *scene, uint32_t x, uint32_t y, double radius_px)
@@ -63,18 +38,6 @@ static void a_lamp_is_a_round_disc_of_its_light(void **state)
         assert_true(worst < 0.06 && outside < 0.02);
     }
     close_host(&h);
-}
-
-/* How much of the light is elsewhere than in the picture before, which it replaces. */
-static double change(const host *h, float *before)
-{
-    double sum = 0, light = 0;
-    for (size_t i = 0; i < COUNT; i++) {
-        sum += fabs((double)h->f.result[4 * i] - (double)before[i]);
-        light += (double)h->f.result[4 * i];
-        before[i] = h->f.result[4 * i];
-    }
-    return sum / light;
 }
 
 /* A disc grows from 10 px to 20 px, and with it all comes from other fields. In no step does it change much more than

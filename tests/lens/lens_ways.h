@@ -1,0 +1,45 @@
+/* lens_ways.h - a lens that blurs in place by the passes of GPUs, with wide discs from a quarter of the resolution, or by
+ * those for discs of any width. */
+#ifndef VIRGA_TESTS_LENS_WAYS_H
+#define VIRGA_TESTS_LENS_WAYS_H
+
+#include "lens_host.h"
+
+#define WIDTH  192
+#define HEIGHT 112
+#define COUNT  ((size_t)WIDTH * HEIGHT)
+
+/* A depth (m) with a circle of confusion of so many pixels. Less than 0: in front of the focus. */
+static inline double depth_of(double radius_px)
+{
+    return 1 / (4 - radius_px / 10);
+}
+
+static inline void open_way(host *h, bool wide)
+{
+    effect_fixture_variants = wide ? VIRGA_VARIANTS_GPU : VIRGA_VARIANTS_SOFTWARE;
+    REQUIRE(open_host(h, VIRGA_TARGET_RENDER_PASS, WIDTH, HEIGHT, 1));
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+    h->f.settings.focus_m = 0.25f;
+    h->f.settings.max_radius_px = 32;
+}
+
+static inline void run_way(host *h, bool wide)
+{
+    run(h);
+    assert_int_equal(h->f.lens->prepared[0].wide, wide);
+}
+
+/* How much of the light is elsewhere than in the picture before, which it replaces. */
+static inline double change(const host *h, float *before)
+{
+    double sum = 0, light = 0;
+    for (size_t i = 0; i < COUNT; i++) {
+        sum += fabs((double)h->f.result[4 * i] - (double)before[i]);
+        light += (double)h->f.result[4 * i];
+        before[i] = h->f.result[4 * i];
+    }
+    return sum / light;
+}
+
+#endif
