@@ -192,22 +192,22 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    SAMPLED_IMAGE(COMPUTE, spreads),                      /* 25 */
-    {SAMPLED, COMPUTE},                                   /* 26 color of the layer on the scene */
-    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},               /* 27 */
-    BUFFER_IN(COMPUTE | VERTEX, lists),                   /* 28 */
-    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(focused)},    /* 29: words of a uniform block are cheaper */
-    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},              /* 30 */
-    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},        /* 31 */
-    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},                /* 32: the first image of fields, or packed */
-    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},        /* 33 */
-    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},        /* 34 */
-    [LENS_BIND_COARSE_FAR] = {SAMPLED, FRAGMENT},         /* 35 */
-    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},        /* 36 */
-    [LENS_BIND_FIRST_LAYER] = {SAMPLED, FRAGMENT},        /* 37 */
-    [LENS_BIND_FIRST_COARSE_LAYER] = {SAMPLED, FRAGMENT}, /* 38 */
-    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},             /* 39 */
-    [LENS_BIND_FOCUS_WRITTEN] = BUFFER(focused),          /* 40 */
+    SAMPLED_IMAGE(COMPUTE, spreads),                       /* 25 */
+    {SAMPLED, COMPUTE},                                    /* 26 color of the layer on the scene */
+    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},                /* 27 */
+    BUFFER_IN(COMPUTE | VERTEX, lists),                    /* 28 */
+    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(focused)},     /* 29: words of a uniform block are cheaper */
+    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},               /* 30 */
+    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},         /* 31 */
+    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},                 /* 32: the first image of fields, or packed */
+    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},         /* 33 */
+    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},         /* 34 */
+    [LENS_BIND_COARSE_FAR] = {SAMPLED, VERTEX | FRAGMENT}, /* 35 */
+    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},         /* 36 */
+    [LENS_BIND_FIRST_LAYER] = {SAMPLED, FRAGMENT},         /* 37 */
+    [LENS_BIND_FIRST_COARSE_LAYER] = {SAMPLED, FRAGMENT},  /* 38 */
+    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},              /* 39 */
+    [LENS_BIND_FOCUS_WRITTEN] = BUFFER(focused),           /* 40 */
 };
 
 static const virga_effect_layout layouts[] = {

@@ -12,6 +12,9 @@
 #endif
 layout(set = 0, binding = 4) uniform sampler2D scene_depth;
 layout(set = 0, binding = 12) uniform sampler2DArray fields;
+#ifndef PER_TEXEL // the size of a texel of the fields, in texture coordinates
+#define PER_TEXEL (1.0 / vec2(textureSize(fields, 0).xy))
+#endif
 #ifndef LAYER_IS_THERE // draws in place know where a layer has nothing, and where nothing of it is in focus
 #define LAYER_IS_THERE(layer) true
 #define LAYER_IS_SEEN(layer)  true
@@ -27,7 +30,7 @@ void look_at(uvec2 at)
     pixel = ivec2(view.left + at.x, view.top + at.y);
     // The image may be larger than what is used of it.
     const vec2 texel = min((vec2(at) + 0.5) / float(STEP), vec2(view.columns, view.rows) - 0.5);
-    sampled = texel / vec2(textureSize(fields, 0).xy);
+    sampled = texel * PER_TEXEL;
 }
 
 // At full resolution a texel is a pixel, and fetching it is cheaper.

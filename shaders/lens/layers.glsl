@@ -79,8 +79,23 @@ layer_four layer_colors(uint layer, ivec2 low, ivec2 high)
 
 vec4 depths_of_four(layer_four four) { return vec4(four.a.r, four.b.r, four.c.r, four.d.r); }
 
+// All at once, if the last pixel is beside the first one.
+vec4 gathered(sampler2D image, ivec2 high)
+{
+    return textureGather(image, vec2(high) / vec2(textureSize(image, 0))).wzxy;
+}
+
 vec4 layer_depths(uint layer, ivec2 low, ivec2 high)
 {
+    if (high == low + 1) {
+        switch (layer) {
+        case 0u: return gathered(layer_depth_0, high);
+        case 1u: return gathered(layer_depth_1, high);
+        case 2u: return gathered(layer_depth_2, high);
+        case 3u: return gathered(layer_depth_3, high);
+        default: return gathered(layer_depth_4, high);
+        }
+    }
     switch (layer) {
     case 0u: return depths_of_four(four_of(layer_depth_0, low, high));
     case 1u: return depths_of_four(four_of(layer_depth_1, low, high));

@@ -41,7 +41,7 @@ shared uvec2 kept[MOST]; // color and coverage of a sample, as half floats
 #ifdef LAYER_DEPTHS
 shared vec2 kept_discs[MOST]; // its radius, and 1 / area of its disc on the grid
 #endif
-shared uint widest;  // radius of all samples, as the word of a float
+shared uint widest, narrowest; // radius of all samples that are not empty, as words of floats
 shared bool has_any; // color or coverage in a sample
 shared bool is_seen; // the layer's own pixels are
 
@@ -55,14 +55,23 @@ vec4 kept_color(int at) { return vec4(unpackHalf2x16(kept[at].x), unpackHalf2x16
 #define COLORS vec4
 #include "even_rows.glsl"
 
-// How much of what has this circle of confusion (texels) comes from this pass.
+bool has_coarse() { return (view.coarse_layers >> layer & 1u) != 0u; }
+
+// How much of a layer at one depth, which has this circle of confusion (texels), comes from this pass.
 float own_share(float radius)
 {
-    const float wide = (view.coarse_layers >> layer & 1u) != 0u ? coarseness(radius * (1.0 / TEXELS)) : 0.0;
-    return COARSE ? wide : 1.0 - wide;
+    const float wide = has_coarse() ? coarseness(radius * (1.0 / TEXELS)) : 0.0;
+    return BY_SCALE(wide, (1.0 - wide));
 }
 
 // ---- the samples
+
+// The circles of confusion of depths of the layer, which may be there where the scene has none.
+depth_line line_of_layer()
+{
+    const float at_infinity = view.circle_px_m * focus_inv_m() * TEXELS;
+    return depth_line(-view.circle_px_m / view.depth_b * TEXELS, at_infinity, min(at_infinity, MAX_RADIUS));
+}
 
 // Of the pixels of a texel.
 struct pixels_sum {
@@ -90,19 +99,26 @@ void add_four(ivec2 first, inout pixels_sum to)
 {
     const ivec2 last = ivec2(view.width, view.height) - 1, origin = ivec2(view.left, view.top);
     const ivec2 low = origin + min(first, last), high = origin + min(first + 1, last);
-    const layer_four colors = layer_colors(layer, low, high);
-    vec4 weights = vec4(1.0);
 #ifdef LAYER_DEPTHS
-    const vec4 depths = layer_depths(layer, low, high);
-    const bvec4 there = not_empty(colors);
-    for (int i = 0; i < 4; i++) {
-        const float radius = circle(inverse_depth(depths[i])), blur = blurriness(radius * (1.0 / TEXELS));
-        weights[i] = blur * own_share(radius);
-        to.nearest = weights[i] > 0.0 ? min(to.nearest, radius) : to.nearest;
-        to.seen = to.seen || (there[i] && blur < 1.0);
-    }
-#endif
+    const vec4 radii = depth_circles(line_of_layer(), layer_depths(layer, low, high)), px = abs(radii) * (1.0 / TEXELS);
+    const float least = min(min(px.x, px.y), min(px.z, px.w)), most = max(max(px.x, px.y), max(px.z, px.w));
+    vec4 wide = vec4(0.0), weights = vec4(1.0);
+    if (has_coarse() && most > VIRGA_LENS_COARSE_FROM)
+        wide = vec4(coarseness(px.x), coarseness(px.y), coarseness(px.z), coarseness(px.w));
+    if (least < 2.0)
+        weights = vec4(blurriness(px.x), blurriness(px.y), blurriness(px.z), blurriness(px.w));
+    weights *= BY_SCALE(wide, (1.0 - wide));
+    if (weights == vec4(0.0) && least >= 2.0) // all of it comes from the other scale
+        return;
+    const vec4 nearest = mix(vec4(1e9), radii, greaterThan(weights, vec4(0.0)));
+    to.nearest = min(to.nearest, min(min(nearest.x, nearest.y), min(nearest.z, nearest.w)));
+    const layer_four colors = layer_colors(layer, low, high);
+    if (least < 2.0)
+        to.seen = to.seen || any(equal(uvec4(lessThan(px, vec4(2.0))) * uvec4(not_empty(colors)), uvec4(1u)));
     to.color += weighted_sum(colors, weights);
+#else
+    to.color += weighted_sum(layer_colors(layer, low, high), vec4(1.0));
+#endif
 }
 
 pixels_sum pixels_at(ivec2 texel)
@@ -118,7 +134,7 @@ pixels_sum pixels_at(ivec2 texel)
 void keep_samples()
 {
     const float columns = float(kept_size.x), per_row = 1.0 / columns, half_row = 0.5 * per_row;
-    float farthest = 0.0;
+    vec2 ends = vec2(1e9, 0.0); // the narrowest and the widest disc
     bool any_here = false, seen = false;
     for (int i = int(gl_LocalInvocationIndex); i < kept_size.x * kept_size.y; i += LANES) {
         const float row = floor(float(i) * per_row + half_row);
@@ -128,7 +144,7 @@ void keep_samples()
 #ifdef LAYER_DEPTHS
         const float most = min(MAX_RADIUS, float(VIRGA_LENS_FINE)), radius = clamp(own.nearest, -most, most);
         kept_discs[i] = vec2(radius, there ? spread(radius) : 0.0);
-        farthest = there ? max(farthest, abs(radius)) : farthest;
+        ends = there ? vec2(min(ends.x, abs(radius)), max(ends.y, abs(radius))) : ends;
 #endif
         any_here = any_here || there;
         seen = seen || own.seen;
@@ -137,8 +153,10 @@ void keep_samples()
         has_any = true;
     if (seen)
         is_seen = true;
-    if (farthest > 0.0)
-        atomicMax(widest, floatBitsToUint(farthest));
+    if (ends.y > 0.0) {
+        atomicMin(narrowest, floatBitsToUint(ends.x));
+        atomicMax(widest, floatBitsToUint(ends.y));
+    }
 }
 
 // ---- the field
@@ -160,10 +178,26 @@ void store(ivec2 texel, vec4 value)
         imageStore(fields, at, value);
 }
 
+// Two texels, where all discs have about one radius, in front of the focus or behind it.
+void gather_even(ivec2 texel, float radius, out vec4 sums[2])
+{
+    const even_sums of = gather_disc(texel, max(abs(radius), 0.5));
+    const float per_area = spread(radius);
+    sums[0] = per_area * (of.of_both + of.first);
+    sums[1] = per_area * (of.of_both + of.second);
+}
+
 #ifdef LAYER_DEPTHS
+const float EVEN = 1.0 / 16.0; // texels, as in even.glsl
+
 // Two texels read the same samples.
 void gather_two(ivec2 texel, float reach, out vec4 sums[2])
 {
+    const float least = uintBitsToFloat(narrowest);
+    if (reach - least <= EVEN) {
+        gather_even(texel, 0.5 * (reach + least), sums);
+        return;
+    }
     const int rows = disc_rows(reach);
     const float edge = max(reach, 0.5) + 0.5;
     sums[0] = sums[1] = vec4(0.0);
@@ -200,14 +234,7 @@ vec4 gather_shaped(ivec2 texel, float reach)
     return sum;
 }
 #else
-// All of the layer is at one depth.
-void gather_two(ivec2 texel, float radius, out vec4 sums[2])
-{
-    const even_sums of = gather_disc(texel, max(abs(radius), 0.5));
-    const float per_area = spread(radius);
-    sums[0] = per_area * (of.of_both + of.first);
-    sums[1] = per_area * (of.of_both + of.second);
-}
+void gather_two(ivec2 texel, float radius, out vec4 sums[2]) { gather_even(texel, radius, sums); }
 
 // As gather_plane in layer.comp.
 vec4 gather_shaped(ivec2 texel, float radius)
@@ -278,6 +305,7 @@ void main()
     if (lane == 0) {
         has_any = is_seen = false;
         widest = 0u;
+        narrowest = 0x7F7FFFFFu; // the largest float
     }
     barrier();
     const int around = disc_rows(abs(radius)) + 1;

@@ -36,6 +36,9 @@ bool layer_has(uint layer, uint bits)
 #define NEAR_IS_THERE         (!FOR_GPU || (!NO_NEAR && near_is_there()))
 bool near_is_there();
 vec4 layer_field(uint layer);
+// The size of a texel of the fields, and of the coarse ones, in texture coordinates. A quotient for each pixel is dear.
+layout(location = 4) flat in vec4 per_texel;
+#define PER_TEXEL per_texel.xy
 #define BENEATH
 #include "compose.glsl"
 #include "stack.glsl"
@@ -59,7 +62,7 @@ bool near_is_there() { return has(VIRGA_LENS_HAS_NEAR) || has(VIRGA_LENS_HAS_COA
 vec2 place_in_coarse()
 {
     const vec2 texel = 0.25 * (vec2(pixel) - vec2(view.left, view.top)) + 0.125;
-    return min(texel, vec2((uvec2(view.columns, view.rows) + 1u) >> 1u) - 0.5) / vec2(textureSize(coarse_far, 0));
+    return min(texel, vec2((uvec2(view.columns, view.rows) + 1u) >> 1u) - 0.5) * per_texel.zw;
 }
 
 // From one of the scales, or from both, which add up: narrow_layer.glsl. Of one layer there is a view of its own.

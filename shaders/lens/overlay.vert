@@ -14,6 +14,8 @@ layout(location = 0) flat out uint beside;
 layout(location = 1) flat out vec4 near_limits;
 layout(location = 2) flat out vec4 far_limits;
 layout(location = 3) flat out uint layers_there; // see overlay.frag
+layout(location = 4) flat out vec4 per_texel;
+layout(set = 0, binding = 35) uniform sampler2D coarse_far;
 
 // With entries for every tile, one draw has all that are blended, whether they have a near field or not, and one all
 // that overwrite the target.
@@ -73,6 +75,7 @@ void main()
     beside = VIRGA_LENS_HAS_NEAR;
     near_limits = far_limits = vec4(vec2(-1.0), vec2(2.0));
     layers_there = ~0u;
+    per_texel = 1.0 / vec4(textureSize(fields, 0).xy, textureSize(coarse_far, 0));
     if ((kind & VIRGA_LENS_EVERY) == 0u) {
         tile = listed_tile(kind, entry);
     } else { // all tiles: those of another kind are drawn nowhere

@@ -78,11 +78,19 @@ static void print(const scene_file *scene)
 /* ---- virga bench ---------------------------------------------------------------------------------------------- */
 
 #define FOCUS_M  0.3f
-#define DROPS    1000 /* on the layer, as in the paper's picture */
-#define RUNS     41   /* of a case: a small picture takes as long as a wake of a thread may */
-#define ENOUGH_S 6.0  /* fewer runs are enough after it */
-#define GAME_PX  7.2  /* radius of discs of the rows in place: 1 % of 720 rows */
-#define WIDE_PX  21.6 /* and of 2160 rows: the same lens */
+#define LAYER_M  (0.5f * FOCUS_M) /* of a layer out of focus: in 1/m as far from the focus as infinity is */
+#define DROPS    1000             /* on the layer, as in the paper's picture */
+#define RUNS     41               /* of a case: a small picture takes as long as a wake of a thread may */
+#define ENOUGH_S 6.0              /* fewer runs are enough after it */
+#define GAME_PX  7.2              /* radius of discs of the rows in place: 1 % of 720 rows */
+#define WIDE_PX  21.6             /* and of 2160 rows: the same lens */
+
+/* (in place) The layer of drops: none, or one out of focus by as much as what is farthest away, but in front of it. */
+typedef enum case_layer {
+    NO_LAYER,
+    PLANE,      /* all at one depth */
+    WITH_DEPTHS /* a depth for each pixel */
+} case_layer;
 
 typedef struct lens_case {
     const char *what;
@@ -90,8 +98,9 @@ typedef struct lens_case {
     uint32_t half_resolution;
     double radius_share; /* largest circle of confusion, as a share of the picture's height; 0: everything is sharp */
     uint32_t blurred;    /* index into `shares` */
-    bool in_place;       /* without the layer, and drawn */
+    bool in_place;       /* and drawn */
     double disc_px;      /* (in place) radius of the largest circle of confusion in place of the share */
+    case_layer layer;    /* (in place) others have it in focus */
 } lens_case;
 
 /* How much of the picture is out of focus, from above. The rest is as far away as the focus. */
@@ -99,22 +108,30 @@ static const double shares[] = {1, 1.0 / 3, 0.1, 0};
 #define SHARES (sizeof shares / sizeof *shares)
 
 static const lens_case cases[] = {
-    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0, false, 0},
-    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0, false, 0},
-    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, false, 0},
-    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, false, 0},
-    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, false, 0},
-    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0, false, 0},
-    {"in place, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, GAME_PX},
-    {"in place, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, GAME_PX},
-    {"in place, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, GAME_PX},
-    {"in place, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, GAME_PX},
-    {"wide, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, WIDE_PX},
-    {"wide, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, WIDE_PX},
-    {"wide, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, WIDE_PX},
-    {"wide, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, WIDE_PX},
-    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0, false, 0},
-    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0, false, 0},
+    {"paper", VIRGA_LENS_STYLE_PAPER, 0, 0.02, 0, false, 0, NO_LAYER},
+    {"half, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0, 0, false, 0, NO_LAYER},
+    {"half, 1 %, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, false, 0, NO_LAYER},
+    {"half, 1 %, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, false, 0, NO_LAYER},
+    {"half, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, false, 0, NO_LAYER},
+    {"half, 2 %", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.02, 0, false, 0, NO_LAYER},
+    {"in place, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, GAME_PX, NO_LAYER},
+    {"in place, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, GAME_PX, NO_LAYER},
+    {"in place, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, GAME_PX, NO_LAYER},
+    {"in place, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, GAME_PX, NO_LAYER},
+    {"wide, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, WIDE_PX, NO_LAYER},
+    {"wide, tenth", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 2, true, WIDE_PX, NO_LAYER},
+    {"wide, third", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 1, true, WIDE_PX, NO_LAYER},
+    {"wide, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, WIDE_PX, NO_LAYER},
+    {"plane, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, GAME_PX, PLANE},
+    {"plane, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, GAME_PX, PLANE},
+    {"depths, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, GAME_PX, WITH_DEPTHS},
+    {"depths, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, GAME_PX, WITH_DEPTHS},
+    {"wide plane, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, WIDE_PX, PLANE},
+    {"wide plane, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, WIDE_PX, PLANE},
+    {"wide depths, in focus", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 3, true, WIDE_PX, WITH_DEPTHS},
+    {"wide depths, all", VIRGA_LENS_STYLE_PHYSICAL, 1, 0.01, 0, true, WIDE_PX, WITH_DEPTHS},
+    {"full, in focus", VIRGA_LENS_STYLE_PHYSICAL, 0, 0, 0, false, 0, NO_LAYER},
+    {"full, 1 %", VIRGA_LENS_STYLE_PHYSICAL, 0, 0.01, 0, false, 0, NO_LAYER},
 };
 
 static const uint32_t sizes[][2] = {{320, 240}, {1280, 720}, {3840, 2160}};
@@ -125,7 +142,7 @@ typedef struct pictures {
     host_image color, depths[SHARES], layer; /* depths: by the share that is out of focus */
     uint32_t width, height;
     /* A game's color, of half floats: it is read, and then drawn into. */
-    host_image game;
+    host_image game, game_layer, layer_depth;
     VkRenderPass pass;
     VkFramebuffer framebuffer;
     virga_target *target;
@@ -193,7 +210,7 @@ static bool create_game_pass(bench *b, pictures *p)
 }
 
 /* Black, which costs as much as the street. */
-static bool create_game_image(bench *b, pictures *p)
+static bool create_game_image(bench *b, pictures *p, host_image *image)
 {
     const size_t bytes = (size_t)p->width * p->height * 8;
     const host_image_def def = {.format = GAME_FORMAT,
@@ -202,15 +219,37 @@ static bool create_game_image(bench *b, pictures *p)
                                 .name = "bench game"};
     void *black = calloc(1, bytes);
     const bool good =
-        black && host_image_create_with(&b->device, &def, black, bytes, 8, &p->game, b->error, sizeof b->error);
+        black && host_image_create_with(&b->device, &def, black, bytes, 8, image, b->error, sizeof b->error);
     free(black);
+    return good;
+}
+
+/* The drops as a game has them: half floats, and depths of what is not empty. */
+static bool create_game_layer(bench *b, const float *layer, pictures *p)
+{
+    const size_t pixels = (size_t)p->width * p->height;
+    const host_image_def def = {.format = GAME_FORMAT, .extent = {p->width, p->height, 1}, .name = "bench layer"};
+    uint16_t(*halves)[4] = malloc(pixels * sizeof *halves);
+    float *depth = malloc(pixels * sizeof *depth);
+    bool good = halves && depth;
+    for (size_t i = 0; good && i < pixels; i++) {
+        const bool drop = layer[4 * i + 3] > 0;
+        for (size_t c = 0; c < 4; c++)
+            halves[i][c] = !drop ? 0 : c == 3 ? 0x3A66 : 0x34CD; /* 0.8 and 0.3 */
+        depth[i] = drop ? 1 / LAYER_M : 0;
+    }
+    good = good && upload(b, depth, 1, p, &p->layer_depth) &&
+           host_image_create_with(&b->device, &def, halves, pixels * sizeof *halves, sizeof *halves, &p->game_layer,
+                                  b->error, sizeof b->error);
+    free(halves);
+    free(depth);
     return good;
 }
 
 static bool open_game(bench *b, pictures *p)
 {
     virga_target_def def = virga_default_target_def();
-    if (!create_game_pass(b, p) || !create_game_image(b, p))
+    if (!create_game_pass(b, p) || !create_game_image(b, p, &p->game))
         return false;
     const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
                                           .renderPass = p->pass,
@@ -233,6 +272,8 @@ static void close_game(bench *b, pictures *p)
     vkDestroyFramebuffer(b->device.device, p->framebuffer, NULL);
     vkDestroyRenderPass(b->device.device, p->pass, NULL);
     host_image_destroy(&b->device, &p->game);
+    host_image_destroy(&b->device, &p->game_layer);
+    host_image_destroy(&b->device, &p->layer_depth);
 }
 
 /* The host's barriers around the pass are part of what it costs. */
@@ -257,7 +298,7 @@ static bool open_pictures(bench *b, pictures *p)
     bool good = color && depth && layer;
     if (good) {
         paint(color, depth, layer, p->width, p->height);
-        good = upload(b, color, 4, p, &p->color) && upload(b, layer, 4, p, &p->layer);
+        good = upload(b, color, 4, p, &p->color) && upload(b, layer, 4, p, &p->layer) && create_game_layer(b, layer, p);
     }
     for (size_t i = 0; i < SHARES && good; i++) {
         for (size_t k = (size_t)(shares[i] * p->height) * p->width; k < pixels; k++)
@@ -268,8 +309,8 @@ static bool open_pictures(bench *b, pictures *p)
     free(depth);
     free(layer);
     good = good && open_game(b, p);
-    const host_image *const read[] = {&p->color,     &p->layer,     &p->game,     &p->depths[0],
-                                      &p->depths[1], &p->depths[2], &p->depths[3]};
+    const host_image *const read[] = {&p->color,     &p->layer,     &p->game,      &p->game_layer, &p->layer_depth,
+                                      &p->depths[0], &p->depths[1], &p->depths[2], &p->depths[3]};
     for (size_t i = 0; good && i < sizeof read / sizeof *read; i++)
         bench_know_image(b, read[i]);
     return good || bench_fail(b, "pictures");
@@ -310,6 +351,15 @@ static virga_view view_of(const pictures *p, const lens_case *row)
     return view;
 }
 
+static virga_lens_layer layer_of(const pictures *p, const lens_case *row)
+{
+    virga_lens_layer layer = {.color = sampled(row->in_place ? &p->game_layer : &p->layer),
+                              .depth_m = row->in_place ? LAYER_M : FOCUS_M};
+    if (row->layer == WITH_DEPTHS)
+        layer.depth = sampled(&p->layer_depth);
+    return layer;
+}
+
 /* ---- measuring */
 
 typedef struct frame_times {
@@ -323,10 +373,11 @@ static bool time_frame(bench *b, virga_lens *lens, const pictures *p, const lens
 {
     VkCommandBuffer cmd;
     const virga_view view = view_of(p, row);
-    const virga_lens_layer layer = {.color = sampled(&p->layer), .depth_m = FOCUS_M};
+    const virga_lens_layer layer = layer_of(p, row);
+    const bool has_layer = !row->in_place || row->layer != NO_LAYER;
     if (!bench_begin(b, &cmd))
         return false;
-    if (lens && virga_lens_prepare(lens, cmd, &view, &layer, row->in_place ? 0 : 1, 0) != VIRGA_OK)
+    if (lens && virga_lens_prepare(lens, cmd, &view, &layer, has_layer, 0) != VIRGA_OK)
         return options_complain("bench", "a prepare failed");
     if (lens && row->in_place && !draw_in_place(lens, p, cmd))
         return options_complain("bench", "a draw failed");
@@ -465,9 +516,12 @@ static bool measure(bench *b, const lens_case *row, const pictures *p, const fil
     print_passes(passes, runs);
     fflush(stdout);
     const double modelled_ms = bench_print_model(b);
-    if (modelled_ms > 0)
-        printf("    %.1f x a fill of all pixels, modelled\n",
-               modelled_ms / model_fill_ms(b->model, (double)p->width * p->height));
+    const double fills = modelled_ms > 0 ? modelled_ms / model_fill_ms(b->model, (double)p->width * p->height) : 0;
+    if (fills > 0 && row->layer == NO_LAYER)
+        printf("    %.1f x a fill of all pixels, modelled\n", fills);
+    if (fills > 0 && row->layer != NO_LAYER)
+        printf("    %.1f x a fill of all pixels, modelled: %.1f x a fill of those of the scene and of the layer\n",
+               fills, fills / 2);
     return true;
 }
 
