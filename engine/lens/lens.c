@@ -150,11 +150,13 @@ static const virga_effect_image images[] = {
     {"lens.blocks", AT(blocks), VK_FORMAT_R32G32B32A32_UINT, COLOR, WRITTEN, COUNT_BLOCK_COLUMNS, COUNT_BLOCK_ROWS,
      VIRGA_LENS_BLOCK_KINDS *VIRGA_LENS_BLOCK_PARTS, VIRGA_FIRST_STORAGE},
     {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
-     VIRGA_LENS_NEAR_CIRCLES + 1, VIRGA_FIRST_STORAGE, .per_view = true},
+     VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.coarse_fields", AT(coarse), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COARSE_COLUMNS,
      COUNT_COARSE_ROWS, VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.packed_far", AT(packed), VK_FORMAT_R32_UINT, COLOR, WRITTEN, COUNT_PACKED_COLUMNS, COUNT_PACKED_ROWS, 1,
      VIRGA_FIRST_STORAGE, .per_view = true, .seen_as = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32},
+    {"lens.near_circles", AT(near_circles), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_PACKED_COLUMNS,
+     COUNT_PACKED_ROWS, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_PICTURE_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE, .per_view = true},
     {"lens.circles", AT(circles), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -192,22 +194,24 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
     {SAMPLED, SEEN},
-    SAMPLED_IMAGE(COMPUTE, spreads),                       /* 25 */
-    {SAMPLED, COMPUTE},                                    /* 26 color of the layer on the scene */
-    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},                /* 27 */
-    BUFFER_IN(COMPUTE | VERTEX, lists),                    /* 28 */
-    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(focused)},     /* 29: words of a uniform block are cheaper */
-    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},               /* 30 */
-    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},         /* 31 */
-    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},                 /* 32: the first image of fields, or packed */
-    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},         /* 33 */
-    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},         /* 34 */
-    [LENS_BIND_COARSE_FAR] = {SAMPLED, VERTEX | FRAGMENT}, /* 35 */
-    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},         /* 36 */
-    [LENS_BIND_FIRST_LAYER] = {SAMPLED, FRAGMENT},         /* 37 */
-    [LENS_BIND_FIRST_COARSE_LAYER] = {SAMPLED, FRAGMENT},  /* 38 */
-    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},              /* 39 */
-    [LENS_BIND_FOCUS_WRITTEN] = BUFFER(focused),           /* 40 */
+    SAMPLED_IMAGE(COMPUTE, spreads),                        /* 25 */
+    {SAMPLED, COMPUTE},                                     /* 26 color of the layer on the scene */
+    [LENS_BIND_CIRCLES] = {IMAGE, COMPUTE},                 /* 27 */
+    BUFFER_IN(COMPUTE | VERTEX, lists),                     /* 28 */
+    {UNIFORM, SEEN, VIRGA_SOURCE_BUFFER, AT(focused)},      /* 29: words of a uniform block are cheaper */
+    [LENS_BIND_BLOCKS] = {SAMPLED, COMPUTE},                /* 30 */
+    [LENS_BIND_BLOCKS_WRITTEN] = {IMAGE, COMPUTE},          /* 31 */
+    [LENS_BIND_FAR] = {SAMPLED, FRAGMENT},                  /* 32: the first image of fields, or packed */
+    [LENS_BIND_COARSE_WRITTEN] = {IMAGE, COMPUTE},          /* 33 */
+    [LENS_BIND_COARSE_NEAR] = {SAMPLED, FRAGMENT},          /* 34 */
+    [LENS_BIND_COARSE_FAR] = {SAMPLED, VERTEX | FRAGMENT},  /* 35 */
+    [LENS_BIND_PACKED_WRITTEN] = {IMAGE, COMPUTE},          /* 36 */
+    [LENS_BIND_FIRST_LAYER] = {SAMPLED, FRAGMENT},          /* 37 */
+    [LENS_BIND_FIRST_COARSE_LAYER] = {SAMPLED, FRAGMENT},   /* 38 */
+    [LENS_BIND_COARSE] = {SAMPLED, FRAGMENT},               /* 39 */
+    [LENS_BIND_FOCUS_WRITTEN] = BUFFER(focused),            /* 40 */
+    [LENS_BIND_CIRCLES_OF_NEAR_WRITTEN] = {IMAGE, COMPUTE}, /* 41 */
+    [LENS_BIND_CIRCLES_OF_NEAR] = {SAMPLED, FRAGMENT},      /* 42 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -245,7 +249,7 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers)
     return lens->base.context->for_software || layers <= 1 ? layers : VIRGA_LENS_LAYERS;
 }
 
-#define NARROW_SHARED_BYTES 27216 /* of shared memory, in shaders/lens/narrow_layer.glsl; narrow.glsl has less */
+#define NARROW_SHARED_BYTES 27648 /* of shared memory, in shaders/lens/narrow_layer.glsl; narrow.glsl has less */
 
 static bool has_memory(const virga_context *context)
 {

@@ -38,6 +38,8 @@ enum {
     LENS_BIND_FIRST_COARSE_LAYER,
     LENS_BIND_COARSE,
     LENS_BIND_FOCUS_WRITTEN,
+    LENS_BIND_CIRCLES_OF_NEAR_WRITTEN,
+    LENS_BIND_CIRCLES_OF_NEAR,
     LENS_BINDINGS,
 };
 
@@ -72,9 +74,10 @@ struct virga_lens {
     VIRGA_PER_VIEW(virga_buffer, lists);     /* tiles to draw, if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, picture); /* NULL if def.in_place */
     VIRGA_PER_VIEW(virga_image_2d, fields);
-    VIRGA_PER_VIEW(virga_image_2d, coarse);  /* likewise at half of that resolution; NULL unless def.in_place */
-    VIRGA_PER_VIEW(virga_image_2d, packed);  /* the far field in 32 bits; NULL unless def.in_place */
-    VIRGA_PER_VIEW(virga_image_2d, circles); /* NULL unless def.circles, and then those of the picture are */
+    VIRGA_PER_VIEW(virga_image_2d, coarse);       /* likewise at half of that resolution; NULL unless def.in_place */
+    VIRGA_PER_VIEW(virga_image_2d, packed);       /* the far field in 32 bits; NULL unless def.in_place */
+    VIRGA_PER_VIEW(virga_image_2d, near_circles); /* of the near field, if wide; NULL unless def.in_place */
+    VIRGA_PER_VIEW(virga_image_2d, circles);      /* NULL unless def.circles, and then those of the picture are */
     virga_image_2d *aperture, *samples, *spreads, *blocks, *blank_depth, *blank_color;
     virga_ring view_ring;
     lens_prepared prepared[VIRGA_MAX_VIEWS]; /* by index of the view */

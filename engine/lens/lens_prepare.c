@@ -277,6 +277,20 @@ static void bind_far(const virga_lens *lens, const virga_bound *without, virga_b
         bound[LENS_BIND_FAR].view = lens->packed->seen_view;
 }
 
+/* What only draws in place read, and passes for them write. */
+static void bind_in_place(const virga_lens *lens, const virga_bound *without, virga_bound *bound)
+{
+    const VkSampler linear = lens->base.context->linear;
+    const virga_image_2d *fields = lens->def.circles ? NULL : lens->fields, *coarse = lens->coarse;
+    bound[LENS_BIND_COARSE_WRITTEN] = bound[LENS_BIND_COARSE] = coarse ? in_general(coarse, linear) : *without;
+    bound[LENS_BIND_COARSE_NEAR] = one_of(coarse, VIRGA_LENS_NEAR, *without, linear);
+    bound[LENS_BIND_COARSE_FAR] = one_of(coarse, VIRGA_LENS_FAR, *without, linear);
+    bound[LENS_BIND_FIRST_LAYER] = one_of(fields, VIRGA_LENS_FIRST_LAYER, *without, linear);
+    bound[LENS_BIND_FIRST_COARSE_LAYER] = one_of(coarse, VIRGA_LENS_FIRST_LAYER, *without, linear);
+    bound[LENS_BIND_CIRCLES_OF_NEAR_WRITTEN] = bound[LENS_BIND_CIRCLES_OF_NEAR] =
+        one_of(lens->near_circles, 0, *without, linear);
+}
+
 static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_view *view,
                                  const virga_lens_layer *layers, uint32_t layer_count)
 {
@@ -293,13 +307,7 @@ static VkDescriptorSet write_set(virga_lens *lens, uint32_t index, const virga_v
     bound[LENS_BIND_BLOCKS_WRITTEN] = bound[LENS_BIND_BLOCKS] =
         lens->def.circles ? out : in_general(lens->blocks, context->nearest);
     bind_far(lens, &out, bound);
-    bound[LENS_BIND_COARSE_WRITTEN] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
-    bound[LENS_BIND_COARSE_NEAR] = one_of(lens->coarse, VIRGA_LENS_NEAR, out, context->linear);
-    bound[LENS_BIND_COARSE_FAR] = one_of(lens->coarse, VIRGA_LENS_FAR, out, context->linear);
-    bound[LENS_BIND_COARSE] = lens->coarse ? in_general(lens->coarse, context->linear) : out;
-    bound[LENS_BIND_FIRST_LAYER] =
-        one_of(lens->def.circles ? NULL : lens->fields, VIRGA_LENS_FIRST_LAYER, out, context->linear);
-    bound[LENS_BIND_FIRST_COARSE_LAYER] = one_of(lens->coarse, VIRGA_LENS_FIRST_LAYER, out, context->linear);
+    bind_in_place(lens, &out, bound);
     if (!lens->settings.follow) /* nobody reads it, and it would have to be waited for */
         bound[LENS_BIND_FOCUS] =
             (virga_bound){.buffer = lens->view_ring.buffer->buffer, .range = sizeof(virga_lens_state_gpu)};

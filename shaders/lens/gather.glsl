@@ -346,7 +346,7 @@ float share_in_far(gatherer to)
 // a wide disc behind the focus has the coarse field as well, since draws read between it and those in front of it.
 //
 // Coarse fields are being made by other workgroups now, so it is the draw that adds them: the fourth component says how
-// much of them. What layers need of the near field, its circle of confusion, is beside it (VIRGA_LENS_NEAR_CIRCLES).
+// much of them. What layers need of the near field, its circle of confusion, is in an image of its own (near_circles).
 vec4 fill_of_both(gatherer to, vec3 behind, vec4 filled)
 {
     const float wide = coarseness(radius_at(row_of(to.texel) + to.texel.x) * float(STEP));

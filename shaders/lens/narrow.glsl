@@ -60,6 +60,7 @@ layout(scalar, set = 0, binding = 9) buffer Tiles { virga_lens_tile_gpu tiles[];
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2DArray fields;
 #ifdef WIDE_PASS
 layout(set = 0, binding = 33, rgba16f) uniform writeonly image2DArray coarse_fields;
+layout(set = 0, binding = 41, rgba16f) uniform writeonly image2D near_circles; // of what is in the finer near field
 #else
 layout(set = 0, binding = 36, r32ui) uniform writeonly uimage2D packed_far; // see is_packed in lens_prepare.c
 #include "shared_exponent.glsl"
@@ -125,7 +126,7 @@ void write_field(ivec3 at, vec4 value)
     imageStore(fields, at, value);
 #ifdef WIDE_PASS
     if (at.z == VIRGA_LENS_NEAR && (view.fine_layers | view.coarse_layers) != 0u)
-        imageStore(fields, ivec3(at.xy, VIRGA_LENS_NEAR_CIRCLES), vec4(finer_circle));
+        imageStore(near_circles, at.xy, vec4(finer_circle));
 #endif
 }
 

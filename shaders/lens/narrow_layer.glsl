@@ -282,7 +282,8 @@ void empty_pair(int pair)
 
 void tell_tiles(int lane)
 {
-    const ivec2 tiles = ivec2(BY_SCALE(2 * TILES, TILES), BY_SCALE(2, 1)), size = ivec2(view.tile_columns, view.tile_rows);
+    const ivec2 tiles = ivec2(BY_SCALE(2 * TILES, TILES), BY_SCALE(2, 1));
+    const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
     const ivec2 own = ivec2(lane & (tiles.x - 1), lane >> BY_SCALE(2, 1));
     const ivec2 tile = ivec2(gl_WorkGroupID.xy) * tiles + own;
     const uint words = uint(size.x * size.y) * (1u + BY_SCALE(VIRGA_LENS_LAYERS, 0u) + layer);

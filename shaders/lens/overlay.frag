@@ -52,6 +52,7 @@ layout(set = 0, binding = 35) uniform sampler2D coarse_far;
 layout(set = 0, binding = 37) uniform sampler2D first_layer_field;
 layout(set = 0, binding = 38) uniform sampler2D first_coarse_layer;
 layout(set = 0, binding = 39) uniform sampler2DArray coarse_fields;
+layout(set = 0, binding = 42) uniform sampler2D near_circles;
 layout(location = 0) out vec4 color;
 
 bool has(uint bit) { return (beside & bit) != 0u; }
@@ -112,8 +113,7 @@ vec2 circles_of(vec4 before)
 {
     if ((view.fine_layers | view.coarse_layers) == 0u || !has(VIRGA_LENS_HAS_NEAR))
         return vec2(0.0);
-    const vec3 place = vec3(clamp(sampled, near_limits.xy, near_limits.zw), VIRGA_LENS_NEAR_CIRCLES);
-    return before.a * vec2(textureLod(fields, place, 0.0).r, 1.0);
+    return before.a * vec2(textureLod(near_circles, clamp(sampled, near_limits.xy, near_limits.zw), 0.0).r, 1.0);
 }
 
 void main()

@@ -115,8 +115,6 @@ typedef struct virga_lens_tile_gpu virga_lens_tile_gpu;
 #define VIRGA_LENS_FAR         0
 #define VIRGA_LENS_NEAR        1
 #define VIRGA_LENS_FIRST_LAYER 2
-/* (wide) The mean circle of confusion (texels) of what is in the near field. Other passes keep it in the far field. */
-#define VIRGA_LENS_NEAR_CIRCLES (VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS)
 
 /* One view. Pixels are pixels of the picture, unless they are called texels: those are of the work image. */
 struct virga_lens_gpu {

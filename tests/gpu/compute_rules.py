@@ -18,7 +18,7 @@ from graphics_rules import disassemble, instructions, list_passes
 
 SHARED_BYTES = 16384
 # Passes that are not used where a device has less, and what the library asks for: lens_way_of, engine/lens/lens.c.
-ASKED_BYTES = {"lens/narrow.comp": 27216, "lens/wide.comp": 27216, "lens/narrow_plane.comp": 27216, "lens/narrow_depths.comp": 27216}
+ASKED_BYTES = {f"lens/{name}.comp": 27648 for name in ("narrow", "wide", "narrow_plane", "narrow_depths")}
 INVOCATIONS = 256
 BUFFERS = 0x40  # UniformMemory, among a barrier's semantics
 OF_SUBGROUPS = ("_shuffle.comp", "_narrow.comp")

@@ -1,5 +1,5 @@
-/* lens_ways.h - a lens that blurs in place by the passes of GPUs, with wide discs from a quarter of the resolution, or by
- * those for discs of any width. */
+/* lens_ways.h - a lens that blurs in place by the passes of GPUs, with wide discs from a quarter of the resolution, or
+ * by those for discs of any width. */
 #ifndef VIRGA_TESTS_LENS_WAYS_H
 #define VIRGA_TESTS_LENS_WAYS_H
 

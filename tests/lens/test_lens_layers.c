@@ -168,6 +168,27 @@ static void layers_look_as_in_the_passes_for_any_width(void **state)
         look_at_frame(&frames[i]);
 }
 
+/* Pixels of one color beside each other in focus, and a drop out of focus in the same squares. */
+static void pixels_in_focus_are_themselves_beside_drops_that_are_not(void **state)
+{
+    (void)state;
+    static const double radii[] = {-9, -14, -24};
+    for (int i = 0; i < 3; i++) {
+        host h;
+        open_way(&h, true);
+        lens_paint_all(&h.f.scene, 0.25f, 0.25);
+        const lens_picture *layer = add_layer(&h, 0, true);
+        for (uint32_t k = 0; k < 64; k++) {
+            lens_paint(layer, 20 + k % 8, 20 + k / 8, k % 2 ? 2 : 0.5f, 0.25);
+            lens_paint(layer, 80 + k % 8, 20 + k / 8, 20, depth_of(radii[i]));
+        }
+        run_way(&h, true);
+        for (uint32_t k = 0; k < 64; k++)
+            assert_float_equal(lens_result(&h.f, 20 + k % 8, 20 + k / 8), (k % 2 ? 2 : 0.5), 2e-3);
+        close_host(&h);
+    }
+}
+
 /* ---- what is not there */
 
 /* After a picture with a layer that was bright and covered all. */
@@ -284,6 +305,7 @@ int main(void)
         cmocka_unit_test(a_lamp_on_a_layer_is_a_round_disc_of_its_light),
         cmocka_unit_test(nothing_pops_as_a_disc_grows),
         cmocka_unit_test(layers_look_as_in_the_passes_for_any_width),
+        cmocka_unit_test(pixels_in_focus_are_themselves_beside_drops_that_are_not),
         cmocka_unit_test(nothing_is_left_of_the_layer_before),
         cmocka_unit_test(where_a_layer_has_nothing_the_target_is_not_touched),
         cmocka_unit_test(a_color_that_is_no_number_does_not_spread),
