@@ -9,8 +9,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "accumulate.h"
 #include "moving.h"
 #include "plate_fixture.h"
+#include "reuse.h"
 
 enum { WIDTH = 128, HEIGHT = 96, SAMPLES = 16, SHARE = 4 };
 
@@ -319,6 +321,20 @@ static void what_moves_goes_so_many_pixels_as_its_way_is_long(void **state)
     assert_float_equal(host_moving_travel_px(&mesh, &camera), 0.05 / 0.1 * HEIGHT / 2 / tan(M_PI / 6), 1e-3);
 }
 
+/* Haze and what water mirrors: as rarely as shading where four samples are shared, and never less than twice. */
+static void shared_pictures_are_averaged(void **state)
+{
+    (void)state;
+    for (uint32_t samples = 1; samples <= 256; samples++) {
+        const uint32_t share = host_accumulator_share(samples);
+        assert_true(share >= 1 && samples % share == 0);
+        assert_true(share == 1 || samples / share >= 2);
+    }
+    assert_int_equal(host_accumulator_share(3), 1);
+    assert_int_equal(host_accumulator_share(4), host_reuse_share(4));
+    assert_int_equal(host_accumulator_share(16), host_reuse_share(16));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -332,6 +348,7 @@ int main(void)
         cmocka_unit_test(what_moving_glass_may_cover_is_shaded_each_time),
         cmocka_unit_test(what_a_fast_mirror_image_may_cover_is_shaded_each_time),
         cmocka_unit_test(what_moves_goes_so_many_pixels_as_its_way_is_long),
+        cmocka_unit_test(shared_pictures_are_averaged),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

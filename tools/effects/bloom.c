@@ -81,7 +81,7 @@ static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *t
 }
 
 static const tool_layer layers[] = {
-    {TOOL_COLOR_LAYER("bloom", draw, 18, "bloom", "light that droplets in the air spread"), .is_smooth = true,
+    {TOOL_COLOR_LAYER("bloom", draw, 18, "bloom", "light that droplets in the air spread"), .shared_from = 8,
      .depth = TOOL_DEPTH_FOCUS},
 };
 

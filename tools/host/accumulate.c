@@ -213,7 +213,7 @@ uint32_t host_accumulator_share(uint32_t samples)
 {
     if (samples >= 16 && samples % 4 == 0)
         return 4;
-    return samples >= 8 && samples % 2 == 0 ? 2 : 1;
+    return samples >= 4 && samples % 2 == 0 ? 2 : 1;
 }
 
 void host_accumulator_skip(host_accumulator *a, host_output output)

@@ -49,7 +49,7 @@ typedef struct host_accumulator {
 } host_accumulator;
 
 /* Sub-frames that share one picture of what hardly differs between them but at edges: 1, 2 or 4 of a number of samples,
- * which it divides. At least four pictures are left to average, as many as smooth an edge of little contrast. */
+ * which it divides. Two pictures of four are enough to average: four of four are no nearer to 256 samples. */
 uint32_t host_accumulator_share(uint32_t samples);
 
 /* On failure nothing is left. The device must outlive it. */

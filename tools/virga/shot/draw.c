@@ -72,7 +72,8 @@ static uint32_t jitter_place(const shot *s, uint32_t sample)
 static bool has_turn(const shot *s, const shot_layer *layer)
 {
     const uint32_t share = host_accumulator_share(s->options.samples), place = jitter_place(s, s->sums.samples);
-    if (!layer->layer->is_smooth || s->lens || shot_looks_through_lens(s))
+    const uint32_t from = layer->layer->shared_from;
+    if (!from || s->options.samples < from || s->lens || shot_looks_through_lens(s))
         return true;
     return place % share == place / share % share;
 }
