@@ -21,7 +21,7 @@ layout(location = 0) out vec4 radiance;
 
 #define PI 3.14159265
 #define DEPTH_SAMPLES 6
-#define CONE_STEPS 10     // steps of the integral over a cone
+#define CONE_STEPS 14     // steps of the integral over a cone
 #define RANGE_STEPS 6     // and over a range alone
 #define HIDDEN_FROM_M 0.3 // what is nearer than the lamp by this begins to hide it: its own lantern does not
 #define HIDDEN_M 0.9
