@@ -38,8 +38,8 @@ typedef struct tool_layer {
     int order; /* layers with a higher order cover those with a lower one */
     tool_layer_depth depth;
     bool is_data; /* not a color: not part of the beauty layer, and taken from one sub-frame, not averaged */
-    /* Number of samples from which on it is averaged from some sub-frames only, as it hardly differs between them but at
-     * edges of the scene. What shows small lamps sharply needs four pictures of them. 0: all sub-frames have it. */
+    /* Number of samples from which on it is averaged from some sub-frames only, as it hardly differs between them but
+     * at edges of the scene. What shows small lamps sharply needs four pictures of them. 0: all sub-frames have it. */
     uint32_t shared_from;
     /* (is_data) Its values are pixels right and down: 1 to another place, -1 from a place a frame ago; 0: others. */
     int offset;
