@@ -399,7 +399,8 @@ static void close_state(shot *s, void *state)
     glass_state *g = state;
     for (uint32_t i = 0; g->panes && i < count_all(s->scene); i++) {
         host_buffer_destroy(&s->device, &g->panes[i].read.buffer);
-        host_mesh_destroy(&s->device, &g->panes[i].mesh);
+        host_mesh_destroy(&s->device, &g->panes[i].frame);
+        host_mesh_destroy(&s->device, &g->panes[i].wipers);
         free(g->panes[i].positions);
     }
     free(g->defs);

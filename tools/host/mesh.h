@@ -17,6 +17,7 @@ typedef enum host_alpha {
     HOST_ALPHA_OPAQUE = 0,
     HOST_ALPHA_MASK = 1,  /* cut out below the cutoff */
     HOST_ALPHA_GLASS = 2, /* thin glass: transparent, with reflections */
+    HOST_ALPHA_SWEPT = 3, /* opaque, and moves while the shutter is open: see swept.h. Needs independent blending */
 } host_alpha;
 
 typedef struct host_material {

@@ -26,35 +26,6 @@ static void bind_frame(const host_renderer *r, VkCommandBuffer cmd)
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
 }
 
-/* Whether a light reaches into a box: its range does, and it does not turn its back on all of it. */
-static bool reaches(const virga_light *light, const float low[3], const float high[3])
-{
-    const float *d = light->direction;
-    const bool spot = d[0] != 0.0f || d[1] != 0.0f || d[2] != 0.0f;
-    double apart2 = 0, most_ahead = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        const double to_low = (double)low[axis] - light->position_m[axis];
-        const double to_high = (double)high[axis] - light->position_m[axis];
-        const double apart = fmax(fmax(to_low, -to_high), 0);
-        apart2 += apart * apart;
-        most_ahead += fmax((double)d[axis] * to_low, (double)d[axis] * to_high);
-    }
-    const double range_m = 1.001 * (double)light->range_m + 0.001;
-    return (light->range_m <= 0.0f || apart2 <= range_m * range_m) &&
-           (!spot || light->cos_outer < 0.0f || light->cos_inner < 0.0f || most_ahead > -1e-3);
-}
-
-/* Bits of the lights that may reach a primitive. */
-static uint32_t lamps_of(const host_renderer *r, const host_mesh *mesh, const host_primitive *primitive)
-{
-    uint32_t bits = 0;
-    const float *low, *high;
-    const bool known = host_mesh_bounds(mesh, primitive, &low, &high);
-    for (uint32_t i = 0; i < r->light_count; i++)
-        bits |= !known || reaches(&r->lights[i], low, high) ? 1u << i : 0;
-    return bits;
-}
-
 static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id, uint32_t lamps,
                          struct host_surface_gpu *out)
 {
@@ -86,8 +57,12 @@ static bool is_drawn_by(const host_material *material, host_pipeline kind)
     case HOST_PIPELINE_CUTOUT:
     case HOST_PIPELINE_CUTOUT_ID: return material->alpha == HOST_ALPHA_MASK;
     case HOST_PIPELINE_SHADE:
-    case HOST_PIPELINE_DATA: return material->alpha != HOST_ALPHA_GLASS;
+    case HOST_PIPELINE_DATA: return material->alpha != HOST_ALPHA_GLASS && material->alpha != HOST_ALPHA_SWEPT;
     case HOST_PIPELINE_GLASS: return material->alpha == HOST_ALPHA_GLASS;
+    case HOST_PIPELINE_SWEPT:
+    case HOST_PIPELINE_SWEPT_DATA:
+    case HOST_PIPELINE_SWEPT_DEPTH:
+    case HOST_PIPELINE_SWEPT_ID: return material->alpha == HOST_ALPHA_SWEPT;
     case HOST_PIPELINE_FOOTAGE: return true;
     default: return false;
     }
@@ -201,6 +176,15 @@ static bool is_hidden(const drawing *d, const host_mesh *mesh, const host_primit
     return d->cull && host_mesh_bounds(mesh, primitive, &low, &high) && host_cull_hides(d->cull, low, high);
 }
 
+/* As which a primitive is drawn. */
+static uint32_t id_of(const host_entry *entry, uint32_t primitive, host_pipeline kind)
+{
+    const bool shares = kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID;
+    if (kind == HOST_PIPELINE_SWEPT_ID)
+        return HOST_REUSE_SWEPT;
+    return shares && entry->mesh->moves ? HOST_REUSE_MOVES : entry->first_id + primitive;
+}
+
 static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
 {
     const host_renderer *r = d->renderer;
@@ -214,9 +198,7 @@ static void draw_entry(drawing *d, const host_entry *entry, host_pipeline kind)
         if (!is_drawn_by(material, kind) || is_hidden(d, mesh, primitive))
             continue;
         struct host_surface_gpu surface;
-        const bool never_shared = mesh->moves && (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID);
-        const uint32_t id = never_shared ? HOST_REUSE_MOVES : entry->first_id + i;
-        fill_surface(primitive, material, id, lamps_of(r, mesh, primitive), &surface);
+        fill_surface(primitive, material, id_of(entry, i, kind), host_renderer_lamps(r, mesh, primitive), &surface);
         vkCmdPushConstants(d->cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
         vkCmdBindDescriptorSets(d->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);
@@ -683,14 +665,22 @@ static host_moving find_moving(const host_renderer *r, const host_camera *camera
     return moving;
 }
 
+/* What moves is drawn over what is behind it, which so has to be known wherever it may have been: there nothing of the
+ * sub-frame before is kept. */
+static void draw_ids(drawing *d)
+{
+    host_reuse_begin_depth(&d->renderer->reuse, d->cmd);
+    draw_entries(d, HOST_PIPELINE_ID);
+    draw_entries(d, HOST_PIPELINE_CUTOUT_ID);
+    draw_entries(d, HOST_PIPELINE_SWEPT_ID);
+}
+
 /* Over the plate of the sub-frame before. See reuse.h. */
 static void draw_following(drawing *d, const host_camera *camera)
 {
     const host_renderer *r = d->renderer;
     const float shift_px[2] = {r->found_px[0] - camera->jitter_px[0], r->found_px[1] - camera->jitter_px[1]};
-    host_reuse_begin_depth(&r->reuse, d->cmd);
-    draw_entries(d, HOST_PIPELINE_ID);
-    draw_entries(d, HOST_PIPELINE_CUTOUT_ID);
+    draw_ids(d);
     const host_moving moving = find_moving(r, camera);
     host_reuse_end_depth(&r->reuse, d->cmd, shift_px, &moving);
     host_reuse_begin_shade(&r->reuse, d->cmd, shift_px);
@@ -714,6 +704,32 @@ static void draw_first(drawing *d, const host_target *target, const host_camera 
     memcpy(r->found_px, camera->jitter_px, sizeof r->found_px);
 }
 
+/* Whether something moves while the shutter is open. */
+static bool sweeps(const host_renderer *r)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < r->entry_count; i++)
+        for (uint32_t m = 0; m < r->entries[i].mesh->material_count; m++)
+            found = found || r->entries[i].mesh->materials[m].alpha == HOST_ALPHA_SWEPT;
+    return found;
+}
+
+/* Over all of it, also where sub-frames share it: see swept.h. None hides another before both have their colors: they
+ * are in one place at different times. */
+static void draw_swept(drawing *d, const host_target *target)
+{
+    const host_plate_parts parts = d->renderer->parts;
+    if (!sweeps(d->renderer))
+        return;
+    host_target_begin_over(target, d->cmd);
+    bind_frame(d->renderer, d->cmd);
+    d->bound = VK_NULL_HANDLE;
+    if (parts == HOST_PLATE_WHOLE)
+        draw_entries(d, HOST_PIPELINE_SWEPT);
+    draw_entries(d, parts == HOST_PLATE_DEPTH ? HOST_PIPELINE_SWEPT_DEPTH : HOST_PIPELINE_SWEPT_DATA);
+    host_target_end_plate(target, d->cmd);
+}
+
 bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                          const host_camera *previous, char *error, size_t error_size)
 {
@@ -730,6 +746,7 @@ bool host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
         draw_following(&d, camera);
     else
         draw_first(&d, target, camera, shares);
+    draw_swept(&d, target);
     host_label_end(r->device, cmd);
     return !d.failed;
 }

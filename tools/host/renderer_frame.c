@@ -1,4 +1,4 @@
-/* renderer_frame.c - the uniforms of a plate: camera, lights, sky, wet ground, mirror. */
+/* renderer_frame.c - the uniforms of a plate: camera, lights, sky, wet ground, mirror; and which lights a draw has. */
 #include <math.h>
 #include <string.h>
 
@@ -159,4 +159,32 @@ void host_renderer_fill_frame(const host_renderer *r, const host_target *target,
     frame->sampling[3] = r->has_meniscus;
     for (uint32_t i = 0; i < r->light_count; i++)
         fill_light(&r->lights[i], camera, &frame->lights[i]);
+}
+
+/* Whether a light reaches into a box: its range does, and it does not turn its back on all of it. */
+static bool reaches(const virga_light *light, const float low[3], const float high[3])
+{
+    const float *d = light->direction;
+    const bool spot = d[0] != 0.0f || d[1] != 0.0f || d[2] != 0.0f;
+    double apart2 = 0, most_ahead = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double to_low = (double)low[axis] - light->position_m[axis];
+        const double to_high = (double)high[axis] - light->position_m[axis];
+        const double apart = fmax(fmax(to_low, -to_high), 0);
+        apart2 += apart * apart;
+        most_ahead += fmax((double)d[axis] * to_low, (double)d[axis] * to_high);
+    }
+    const double range_m = 1.001 * (double)light->range_m + 0.001;
+    return (light->range_m <= 0.0f || apart2 <= range_m * range_m) &&
+           (!spot || light->cos_outer < 0.0f || light->cos_inner < 0.0f || most_ahead > -1e-3);
+}
+
+uint32_t host_renderer_lamps(const host_renderer *r, const host_mesh *mesh, const host_primitive *primitive)
+{
+    uint32_t bits = 0;
+    const float *low, *high;
+    const bool known = host_mesh_bounds(mesh, primitive, &low, &high);
+    for (uint32_t i = 0; i < r->light_count; i++)
+        bits |= !known || reaches(&r->lights[i], low, high) ? 1u << i : 0;
+    return bits;
 }

@@ -31,6 +31,10 @@ typedef enum host_pipeline {
     HOST_PIPELINE_FOOTAGE, /* what water changes of ground on a picture */
     HOST_PIPELINE_FOOTAGE_MIRROR, /* instead of the sky in the mirror, where a picture replaces the plate */
     HOST_PIPELINE_SKY,
+    HOST_PIPELINE_SWEPT,       /* after all others: color of what moves while the shutter is open, blended ... */
+    HOST_PIPELINE_SWEPT_DATA,  /* ... and the rest, with depth */
+    HOST_PIPELINE_SWEPT_DEPTH, /* depth alone */
+    HOST_PIPELINE_SWEPT_ID,    /* where it may be: ids without depth */
     HOST_PIPELINE_COUNT,
 } host_pipeline;
 
@@ -107,6 +111,9 @@ struct host_renderer {
 /* renderer_frame.c: the uniforms of a plate. */
 void host_renderer_fill_frame(const host_renderer *renderer, const host_target *target, const host_camera *camera,
                               const host_camera *previous, struct host_frame_gpu *frame);
+
+/* Bits of the lights that may reach a primitive. */
+uint32_t host_renderer_lamps(const host_renderer *renderer, const host_mesh *mesh, const host_primitive *primitive);
 
 /* Remembers what the mirror is drawn with: the camera, and the uniforms filled for it. */
 void host_renderer_place_mirror(host_renderer *renderer, const host_camera *camera, const struct host_frame_gpu *frame);

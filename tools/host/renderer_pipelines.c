@@ -17,11 +17,13 @@
 #include "scene_frag_footage.spv.h"
 #include "scene_frag_ground.spv.h"
 #include "scene_frag_mirror.spv.h"
+#include "scene_frag_swept.spv.h"
 #include "scene_vert.spv.h"
 #include "scene_vert_mirror.spv.h"
 #include "sky_frag.spv.h"
 #include "sky_frag_mirror.spv.h"
 #include "sky_vert.spv.h"
+#include "swept_frag.spv.h"
 
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
@@ -62,6 +64,8 @@ enum {
     SHADER_FOOTAGE_MIRROR,
     SHADER_SKY_VERT,
     SHADER_SKY_FRAG,
+    SHADER_SWEPT_COLOR,
+    SHADER_SWEPT,
 };
 
 #define NO_SHADER (-1)
@@ -88,6 +92,10 @@ static const struct {
     [HOST_PIPELINE_FOOTAGE_MIRROR] = {SHADER_SKY_VERT, SHADER_FOOTAGE_MIRROR, true, true, false,
                                       VK_COMPARE_OP_LESS_OR_EQUAL},
     [HOST_PIPELINE_SKY] = {SHADER_SKY_VERT, SHADER_SKY_FRAG, false, true, false, VK_COMPARE_OP_LESS_OR_EQUAL},
+    [HOST_PIPELINE_SWEPT] = {SHADER_SCENE_VERT, SHADER_SWEPT_COLOR, false, true, true, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_SWEPT_DATA] = {SHADER_SCENE_VERT, SHADER_SWEPT, true, true, false, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_SWEPT_DEPTH] = {SHADER_SCENE_VERT, SHADER_SWEPT, true, false, false, VK_COMPARE_OP_LESS},
+    [HOST_PIPELINE_SWEPT_ID] = {SHADER_SCENE_VERT, SHADER_ID, false, false, false, VK_COMPARE_OP_LESS},
 };
 
 /* The shader of the plate, or of the mirror. */
@@ -109,6 +117,8 @@ static host_code code_of(int shader, bool mirror)
     case SHADER_FOOTAGE_MIRROR: return HOST_CODE(footage_mirror_frag);
     case SHADER_SKY_VERT: return HOST_CODE(sky_vert);
     case SHADER_SKY_FRAG: return mirror ? HOST_CODE(sky_frag_mirror) : HOST_CODE(sky_frag);
+    case SHADER_SWEPT_COLOR: return HOST_CODE(scene_frag_swept);
+    case SHADER_SWEPT: return HOST_CODE(swept_frag);
     default: return (host_code){0};
     }
 }
@@ -120,8 +130,10 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
         if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend || kind == HOST_PIPELINE_FOOTAGE))
             states[i] = recipes[kind].blend && i == 0 ? host_blend_over : host_blend_replace;
-    if (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID)
+    if (kind == HOST_PIPELINE_ID || kind == HOST_PIPELINE_CUTOUT_ID || kind == HOST_PIPELINE_SWEPT_ID)
         states[HOST_ID] = host_blend_replace;
+    if (kind == HOST_PIPELINE_SWEPT_DATA) /* the color is there */
+        states[0].colorWriteMask = 0;
 }
 
 static bool create_pipeline(host_renderer *r, VkRenderPass pass, host_pipeline kind, bool two_sided,

@@ -323,7 +323,14 @@ void host_reuse_find(const host_reuse *u, VkCommandBuffer cmd, const host_target
     vkCmdEndRenderPass(cmd);
 }
 
-/* The sky has no id, so nothing needs to be kept or cleared. */
+/* The sky draws no id. */
+static void clear_ids(const host_reuse *u, VkCommandBuffer cmd)
+{
+    const VkClearAttachment id = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .colorAttachment = HOST_ID};
+    const VkClearRect all = {.rect = {{0, 0}, {u->width, u->height}}, .layerCount = 1};
+    vkCmdClearAttachments(cmd, 1, &id, 1, &all);
+}
+
 void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
 {
     host_image_barrier(cmd, &u->id, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
@@ -331,6 +338,7 @@ void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
                        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
                        VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
     host_pass_begin(cmd, u->pass, u->depth_framebuffer, u->width, u->height, HOST_PLATE_COLORS);
+    clear_ids(u, cmd);
 }
 
 void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2], const host_moving *moving)

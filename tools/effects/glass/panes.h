@@ -13,7 +13,8 @@ typedef struct glass_pane {
     uint32_t columns, rows;
     bool round;           /* its glass is the ellipse in it */
     virga_scene_pane now; /* at the frame that the simulation stands at */
-    host_mesh mesh;       /* its frame and its wipers; no vertices: neither */
+    host_mesh frame;      /* around it; no vertices: none */
+    host_mesh wipers;     /* likewise */
     shot_read read;
 } glass_pane;
 
@@ -76,10 +77,10 @@ void glass_place(const shot *s, const scene_pane *pane, double time_s, virga_sce
 
 /* ---- wipers.c: what is seen of a pane beside its drops */
 
-/* Creates pane->mesh and adds it to the renderer, where the pane has something to show. */
+/* Creates pane->frame and pane->wipers and adds them to the renderer, where the pane has them. */
 bool glass_create_mesh(shot *s, glass_pane *pane, char *error, size_t error_size);
 
-/* Records the update of pane->mesh (frame and wipers) for a time. Outside a render pass. */
+/* Records the update of both for a sub-frame that ends at a time. Outside a render pass. */
 bool glass_move_mesh(shot *s, const glass_pane *pane, VkCommandBuffer cmd, double time_s, char *error,
                      size_t error_size);
 

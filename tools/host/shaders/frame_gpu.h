@@ -144,6 +144,7 @@ struct host_contact_gpu { /* push constants */
 #define HOST_REUSE_SHADED 1
 #define HOST_REUSE_PIXELS 2
 #define HOST_REUSE_MOVES  16777215 /* as an id: of what moves by itself, whose pixels are shaded each time */
+#define HOST_REUSE_SWEPT  16777214 /* likewise: of what is behind something that moves while the shutter is open */
 
 /* Depths at which pixels are drawn that are not shaded: no surface is so near. The test for those between lets only
  * pixels that are taken pass. */

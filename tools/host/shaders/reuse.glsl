@@ -15,9 +15,6 @@ const float REUSE_MOVED_PX = 0.1; // what the eye moves meanwhile, beyond what s
 // 2 parts of a thousand of the distance: 1 - depth falls as 1 / distance.
 float reuse_tolerance(float depth) { return 0.002 * (1.0 - depth) + 1e-6; }
 
-// The id of a pixel, from what was drawn with its depth. The sky draws none.
-uint reuse_id(float depth, uint drawn) { return depth < 1.0 ? drawn : 0u; }
-
 // Whether something moves by itself in a block.
 bool reuse_moves(uvec2 first)
 {

@@ -26,7 +26,7 @@ void main()
     for (int i = 0; i < HOST_REUSE_SIDE * HOST_REUSE_SIDE; i++) {
         const ivec2 inside = ivec2(i % HOST_REUSE_SIDE, i / HOST_REUSE_SIDE), at = ivec2(first) + inside;
         const float depth = texelFetch(depth_picture, min(at, last), 0).r;
-        const uint id = reuse_id(depth, texelFetch(id_picture, min(at, last), 0).r);
+        const uint id = texelFetch(id_picture, min(at, last), 0).r;
         same = same && id == texelFetch(first_id, min(at, last), 0).r;
         if (at == min(at, last))
             apart = max(apart, abs(plane.x + dot(plane.yz, vec2(inside) + from) - depth));

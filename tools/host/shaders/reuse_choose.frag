@@ -21,7 +21,7 @@ uint choose(ivec2 pixel, float depth, out bool is_taken)
 {
     const float allowed = reuse_tolerance(depth);
     const vec2 slope = reuse_slope(depth_picture, pixel, depth), shift = vec2(reuse.shift_x, reuse.shift_y);
-    const float id = float(reuse_id(depth, texelFetch(id_picture, pixel, 0).r));
+    const float id = float(texelFetch(id_picture, pixel, 0).r);
     uint best = 0u;
     float nearest = 4.0; // no pixel of the square is so far away
     vec3 low = vec3(1e30), high = vec3(0.0);

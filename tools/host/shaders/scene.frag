@@ -4,12 +4,12 @@
 // DRY_FOOT, water may climb it. With GROUND it is level ground, at which no rain is driven. With FOOTAGE it is what
 // water changes of ground that is on a picture: its base texture is a mask over the picture. With CLOTH, which is dry
 // in that sense, light of the other side comes through; its pores hold water, and none climbs it. With DATA it has no
-// color.
+// color. With SWEPT, which is dry, it moves while the shutter is open.
 //
 // Software Vulkan runs what stands under a condition for all pixels. So what is told from a triangle is left out by
 // variants. But for cloth they come to the same bits.
 #extension GL_GOOGLE_include_directive : require
-#if defined(CLOTH) || defined(DRY_FOOT)
+#if defined(CLOTH) || defined(DRY_FOOT) || defined(SWEPT)
 #define DRY
 #endif
 #if defined(FOOT) || defined(DRY_FOOT)
@@ -18,6 +18,9 @@
 #if defined(CLOTH) || defined(MIRROR)
 #define THIN
 #include "cloth.glsl"
+#endif
+#ifdef SWEPT
+#include "swept.glsl"
 #endif
 #include "frame_gpu.h"
 
@@ -321,6 +324,9 @@ vec3 emitted_light(int bits)
 // The triangle's own normal turns the smooth one to the side that is seen, whichever way a file winds it.
 vec3 seen_normal(vec3 v)
 {
+#ifdef SWEPT
+    return normalize(in_normal); // of the sides that are seen
+#endif
     const vec3 flat_normal = cross(dFdx(in_relative), dFdy(in_relative)), n = normalize(in_normal);
     return dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
 }
@@ -420,7 +426,12 @@ void main()
 #endif
     const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
+#ifdef SWEPT
+    const float share = swept_share(in_uv);
+    write(color * share, share, n, eye, wetness);
+#else
     write(color, alpha, n, eye, wetness);
+#endif
 }
 #endif
 #endif
