@@ -45,8 +45,8 @@ bool host_renderer_set_walls(host_renderer *renderer, const virga_walls *walls, 
 
 /* Turns on planar reflections: puddles then mirror the scene, not only the sky. Before each plate with a ground, a
  * picture of half the size of `target` is drawn with the world mirrored at the plane y = height_m. The reflection fades
- * out where water is 0.3 to 0.8 m above the plane. Does nothing on devices without clip distances. The device must be
- * idle. */
+ * out where water is 0.6 to 1.4 m above the plane, and that of the sky from 0.3 to 0.8 m on. Does nothing on devices
+ * without clip distances. The device must be idle. */
 bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target, double height_m, char *error,
                               size_t error_size);
 

@@ -63,16 +63,20 @@ float mirror_level(float alpha, float u, float cosine, float way, float from)
 vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float fresnel)
 {
     const float rise = relative.y - frame.mirror.x;
-    const float near = frame.mirror.z * (1.0 - smoothstep(0.3, 0.8, abs(rise))), from = length(relative);
+    const float off = abs(rise), from = length(relative);
+    float near = frame.mirror.z * (1.0 - smoothstep(0.6, 1.4, off));
     const vec2 slope = -normal.xz / normal.y;
     vec3 r = reflect(-v, normal);
-    float trust, way = HOST_MIRROR_FAR;
+    float trust, way = HOST_MIRROR_FAR, seen = 0.0;
     // How far what is mirrored lies: first as if it stood right there, so that a thing's foot is met by its mirrored
     // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
     for (int i = 0; i < 2 && near > 0.0; i++) {
         const vec3 point = mirror_point(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
-        way = clamp(1.0 / textureLod(mirror_near, mirror_at(point, trust), 0.0).r - from, 0.05, way);
+        seen = 1.0 / textureLod(mirror_near, mirror_at(point, trust), 0.0).r;
+        way = clamp(seen - from, 0.05, way);
     }
+    // Ground that lies a little above the plane is not in the picture, so on a slope the sky is seen under things.
+    near *= seen < 0.9 * HOST_MIRROR_FAR ? 1.0 : 1.0 - smoothstep(0.3, 0.8, off);
     // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.
     const vec2 along = dot(v.xz, v.xz) > 1e-6 ? normalize(v.xz) : vec2(0.0, 1.0), across = vec2(-along.y, along.x);
     const float alpha = roughness * roughness;
