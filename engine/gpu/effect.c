@@ -102,6 +102,7 @@ VkDeviceSize virga_texel_bytes(VkFormat format)
     case VK_FORMAT_R8_UINT:
     case VK_FORMAT_R8_UNORM: return 1;
     case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
+    case VK_FORMAT_R32G32B32A32_UINT:
     case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
     default: return 4;
     }

@@ -105,7 +105,7 @@ uint32_t lens_layer_form(const virga_lens *lens, uint32_t layers);
 typedef enum lens_way {
     LENS_WAY_ANY,    /* of any width, from blocks of texels */
     LENS_WAY_NARROW, /* in one pass */
-    LENS_WAY_WIDE,   /* (in place) the same for wider ones, in two of them */
+    LENS_WAY_WIDE,   /* (in place) the same for wider ones, from two scales */
 } lens_way;
 
 /* The one place that chooses, by the kind of device, its memory and the settings. */

@@ -70,7 +70,8 @@ float own_share(float radius)
 depth_line line_of_layer()
 {
     const float at_infinity = view.circle_px_m * focus_inv_m() * TEXELS;
-    return depth_line(-view.circle_px_m / view.depth_b * TEXELS, at_infinity, min(at_infinity, MAX_RADIUS));
+    const float slope = view.depth_b != 0.0 ? -view.circle_px_m / view.depth_b * TEXELS : 0.0;
+    return depth_line(slope, at_infinity, min(at_infinity, MAX_RADIUS));
 }
 
 // Of the pixels of a texel.

@@ -180,7 +180,9 @@ static void a_glow_ends_with_its_lamps_range(void **state)
     shot s;
     open_night(&s);
     s.f.settings.lighting.lights[0].range_m = 3;
-    check_glow(&s, 0, 0.035);
+    check_glow(&s, 0, 0.02);
+    s.f.settings.lighting.lights[0].range_m = 15;
+    check_glow(&s, 0, 0.02);
     close_shot(&s);
 }
 

@@ -40,7 +40,7 @@ typedef struct virga_lens virga_lens; /* opaque */
 typedef struct virga_lens_def {
     uint32_t size, cookie;
 
-    /* [16; 16384] largest viewport in pixels. Memory: 106 bytes per pixel, or 33 at half resolution. Default 1920 and
+    /* [16; 16384] largest viewport in pixels. Memory: 132 bytes per pixel, or 39 at half resolution. Default 1920 and
      * 1080. */
     uint32_t max_width, max_height;
 
@@ -118,9 +118,10 @@ typedef struct virga_lens_settings {
 
     /* [1; 126] largest radius of a circle of confusion (px); larger ones are cut to it. At full resolution at most 63.
      * The cost grows as the square of a circle up to 8 texels of the work image (px, or 2 px at half resolution); wider
-     * ones come from blocks of texels and cost about the same at any size. In place on GPUs, up to 32 px one pass does
-     * the scene, and one each layer that is out of focus; they take a fifth of the time of those for wider discs, or
-     * less. A layer with depths takes two of them from 16 px on. So say no more than is seen. Default 32. */
+     * ones come from blocks of texels and cost about the same at any size. In place on GPUs, and without a layer on the
+     * scene, up to 32 one pass does the scene, and one each layer that is out of focus; they take a fifth of the time of
+     * those for wider discs, or less. Above 16 a layer with depths takes two, and each layer with `follow`. So say no
+     * more than is seen. Default 32. */
     float max_radius_px;
 
     /* (paper) [0; 1e6] difference to the depth at focus (m) from which on the weaker filter is used, and the stronger
@@ -204,7 +205,8 @@ VIRGA_API virga_result virga_lens_attach(virga_lens *lens, const virga_target *t
  * It may be the same image: the host makes it readable, prepares, makes it an attachment again, and loads it. The draw
  * does not read view.color; it reads view.depth, and color and depth of layers.
  *  - Squares of 32 x 32 pixels that nothing out of focus reaches keep their bits, and are neither read nor written.
- *    Layers in focus are put over all of the viewport; on GPUs, up to 32 px, others over squares that they reach.
+ *    Layers are put over all of the viewport. On GPUs, with max_radius_px up to 32 and no layer on the scene, those
+ *    out of focus are put over blocks of up to 128 x 64 pixels that they reach.
  *  - The result is that of the other way but for the rounding of the target's format. On GPUs, without layers and with
  *    max_radius_px up to 16, what is out of focus has nine bits for each channel, rounded to 1/512 of the largest one,
  *    and no colors below 0. Alpha is blended as color is, so 1 stays 1. With several samples a pixel, what is in focus

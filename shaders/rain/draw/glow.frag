@@ -22,7 +22,7 @@ layout(location = 0) out vec4 radiance;
 #define PI 3.14159265
 #define DEPTH_SAMPLES 6
 #define CONE_STEPS 14     // steps of the integral over a cone
-#define RANGE_STEPS 6     // and over a range alone
+#define RANGE_STEPS 8     // and over a range alone
 #define HIDDEN_FROM_M 0.3 // what is nearer than the lamp by this begins to hide it: its own lantern does not
 #define HIDDEN_M 0.9
 
@@ -89,7 +89,7 @@ float integrate_lit(Closest closest, vec3 direction, float from, float to)
     float cone_before = cone_share(dot(axis, begin_at));
     int i = 1;
     do {
-        const float share = float(i) / float(steps), end = mix(low, high, share * (has_cone ? sqrt(share) : share));
+        const float share = float(i) / float(steps), end = mix(low, high, share * sqrt(share));
         const vec2 end_at = cos_sin_of(end), both = begin_at + end_at;
         const float after = scattered_below(end), range_after = range_integral(end, end_at, q);
         const float cone_after = cone_share(dot(axis, end_at));
