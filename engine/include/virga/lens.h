@@ -118,10 +118,10 @@ typedef struct virga_lens_settings {
 
     /* [1; 126] largest radius of a circle of confusion (px); larger ones are cut to it. At full resolution at most 63.
      * The cost grows as the square of a circle up to 8 texels of the work image (px, or 2 px at half resolution); wider
-     * ones come from blocks of texels and cost about the same at any size. In place on GPUs, and without a layer on the
-     * scene, up to 32 one pass does the scene, and one each layer that is out of focus; they take a fifth of the time of
-     * those for wider discs, or less. Above 16 a layer with depths takes two, and each layer with `follow`. So say no
-     * more than is seen. Default 32. */
+     * ones come from blocks of texels and cost about the same at any size. In place on GPUs, and without a layer on
+     * the scene, up to 32 one pass does the scene, and one each layer that is out of focus; they take a fifth of the
+     * time of those for wider discs, or less. Above 16 a layer with depths takes two, and each layer with `follow`. So
+     * say no more than is seen. Default 32. */
     float max_radius_px;
 
     /* (paper) [0; 1e6] difference to the depth at focus (m) from which on the weaker filter is used, and the stronger

@@ -278,7 +278,11 @@ void write(vec3 color, float alpha, vec3 n, vec3 eye, vec2 wetness)
     out_color = vec4(min(color, vec3(6e4)), alpha);
     out_near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR); // glass keeps that of what is behind it
 #else
+#ifdef SWEPT
+    out_color = vec4(color, 1.0) * swept_share(in_uv);
+#else
     out_color = vec4(color, alpha);
+#endif
     out_normal = vec4(n, 1.0);
     out_velocity = velocity_of(vec4(in_relative, 1.0), vec4(in_relative + frame.moved.xyz, 1.0));
     out_water = wetness;
@@ -426,12 +430,7 @@ void main()
 #endif
     const float alpha = (bits & HOST_IS_GLASS) != 0 ? base.a : 1.0;
     color = color * alpha + reflected * (1.0 - alpha); // tint covers what is behind, reflections add to it
-#ifdef SWEPT
-    const float share = swept_share(in_uv);
-    write(color * share, share, n, eye, wetness);
-#else
     write(color, alpha, n, eye, wetness);
-#endif
 }
 #endif
 #endif
