@@ -42,4 +42,32 @@ static inline double change(const host *h, float *before)
     return sum / light;
 }
 
+static inline void assert_finite(const host *h)
+{
+    for (size_t i = 0; i < 4 * COUNT; i++)
+        assert_true(isfinite(h->f.result[i]));
+}
+
+/* A picture of few pixels with the widest discs, by the passes of GPUs: the i-th of these. */
+#define FEW_PIXELS 4
+
+static inline void open_few_pixels(host *h, int i)
+{
+    static const uint32_t sizes[FEW_PIXELS][2] = {{1, 1}, {1, 7}, {5, 2}, {3, 3}};
+    effect_fixture_variants = VIRGA_VARIANTS_GPU;
+    REQUIRE(open_host(h, VIRGA_TARGET_RENDER_PASS, sizes[i][0], sizes[i][1], 1));
+    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
+    h->f.settings.focus_m = 0.25f;
+    h->f.settings.aperture_f = 0.001f;
+}
+
+/* All of it has to be of this gray. */
+static inline void run_few_pixels(host *h, double gray)
+{
+    run_way(h, true);
+    for (size_t i = 0; i < (size_t)h->f.scene.width * h->f.scene.height; i++)
+        assert_float_equal(h->f.result[4 * i], gray, 4e-3);
+    close_host(h);
+}
+
 #endif

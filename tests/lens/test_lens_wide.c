@@ -282,8 +282,7 @@ static void a_color_that_is_no_number_does_not_spread(void **state)
     lens_pixel(&h.f.scene, 70, 50)[0] = NAN;
     lens_pixel(&h.f.scene, 71, 51)[1] = -INFINITY;
     run_way(&h, true);
-    for (size_t i = 0; i < 4 * COUNT; i++)
-        assert_true(isfinite(h.f.result[i]));
+    assert_finite(&h);
     assert_float_equal(lens_result(&h.f, 70, 50), 0.5, 0.01);
     close_host(&h);
 }
@@ -311,20 +310,12 @@ static void other_devices_and_wider_discs_take_the_other_passes(void **state)
 static void pictures_of_few_pixels_are_themselves(void **state)
 {
     (void)state;
-    static const uint32_t sizes[][2] = {{1, 1}, {1, 7}, {5, 2}, {3, 3}};
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < FEW_PIXELS; i++) {
         host h;
-        effect_fixture_variants = VIRGA_VARIANTS_GPU;
-        REQUIRE(open_host(&h, VIRGA_TARGET_RENDER_PASS, sizes[i][0], sizes[i][1], 1));
-        h.f.settings.focus_m = 0.25f;
-        h.f.settings.aperture_f = 0.001f; /* the widest discs */
+        open_few_pixels(&h, i);
         lens_paint_all(&h.f.scene, 3, 1);
-        run_way(&h, true);
-        for (size_t k = 0; k < sizes[i][0] * sizes[i][1]; k++)
-            assert_float_equal(h.f.result[4 * k], 3, 4e-3);
-        close_host(&h);
+        run_few_pixels(&h, 3);
     }
-    effect_fixture_variants = VIRGA_VARIANTS_OF_DEVICE;
 }
 
 int main(void)
