@@ -226,19 +226,61 @@ static void a_point_of_the_lens_keeps_what_is_in_focus(void **state)
     assert_memory_equal(after.clip_from_view, before.clip_from_view, sizeof before.clip_from_view);
 }
 
-static void jitter_is_balanced(void **state)
+/* Of all samples, or of those that stand for `share` each. */
+static void mean_jitter(uint32_t count, uint32_t share, double mean_px[2])
+{
+    mean_px[0] = mean_px[1] = 0;
+    for (uint32_t group = 0; group < count / share; group++) {
+        float j[2];
+        host_camera_jitter(group * share + host_camera_jitter_turn(group, share), count, j);
+        for (int axis = 0; axis < 2; axis++) {
+            assert_true(fabsf(j[axis]) <= ((count & (count - 1)) == 0 ? 0.5f : 0.505f));
+            mean_px[axis] += (double)j[axis] * share / count;
+        }
+    }
+}
+
+static void jitter_moves_no_picture(void **state)
 {
     (void)state;
-    float sum[2] = {0, 0}, j[2];
-    for (uint32_t i = 0; i < 36; i++) {
-        host_camera_jitter(i, 36, j);
-        assert_true(fabsf(j[0]) <= 0.5f && fabsf(j[1]) <= 0.5f);
-        sum[0] += j[0];
-        sum[1] += j[1];
+    float single[2];
+    for (uint32_t count = 1; count <= 256; count++) {
+        double mean_px[2];
+        mean_jitter(count, 1, mean_px);
+        assert_float_equal(mean_px[0], 0, 1e-6);
+        assert_float_equal(mean_px[1], 0, 1e-6);
     }
-    assert_true(fabsf(sum[0]) / 36 < 0.03f && fabsf(sum[1]) / 36 < 0.03f);
-    host_camera_jitter(0, 1, j);
-    assert_true(j[0] == 0.0f && j[1] == 0.0f);
+    host_camera_jitter(0, 1, single);
+    assert_true(single[0] == 0.0f && single[1] == 0.0f);
+}
+
+static void jitter_that_stands_for_others_moves_no_picture(void **state)
+{
+    (void)state;
+    for (uint32_t count = 4; count <= 256; count += 2) {
+        const uint32_t share = count >= 16 && count % 4 == 0 ? 4 : 2;
+        const bool whole = (count & (count - 1)) == 0;
+        double mean_px[2];
+        mean_jitter(count, share, mean_px);
+        assert_float_equal(mean_px[0], 0, whole ? 1e-6 : 0.1);
+        assert_float_equal(mean_px[1], 0, whole ? 1e-6 : 0.1);
+    }
+}
+
+/* One in each of as many columns, and rows, as there are samples. */
+static void jitter_is_even_along_both_axes(void **state)
+{
+    (void)state;
+    for (uint32_t count = 2; count <= 64; count *= 2)
+        for (int axis = 0; axis < 2; axis++) {
+            uint64_t found = 0;
+            for (uint32_t i = 0; i < count; i++) {
+                float j[2];
+                host_camera_jitter(i, count, j);
+                found |= 1ull << (uint32_t)((j[axis] + 0.5f) * (float)count);
+            }
+            assert_true(found == (count == 64 ? UINT64_MAX : (1ull << count) - 1));
+        }
 }
 
 /* A sky of radiance 1 + y/2: irradiance on a level surface is pi (1 + 1/3), beside it pi, below it pi (1 - 1/3). */
@@ -291,7 +333,9 @@ int main(void)
         cmocka_unit_test(a_calibration_can_be_an_angle_of_view),
         cmocka_unit_test(keys_of_axes_roll_without_jumps),
         cmocka_unit_test(a_point_of_the_lens_keeps_what_is_in_focus),
-        cmocka_unit_test(jitter_is_balanced),
+        cmocka_unit_test(jitter_moves_no_picture),
+        cmocka_unit_test(jitter_that_stands_for_others_moves_no_picture),
+        cmocka_unit_test(jitter_is_even_along_both_axes),
         cmocka_unit_test(irradiance),
         cmocka_unit_test(rotation),
     };

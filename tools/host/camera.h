@@ -79,8 +79,13 @@ void host_camera_move_on_lens(host_camera *camera, const double lens_m[2], doubl
 /* When the shot that `time_s` lies in began; -INFINITY for the first one. Motion must not reach back beyond it. */
 double host_camera_shot_start(const host_camera_path *path, double time_s);
 
-/* Sample `index` of `count` of a low-discrepancy pattern of jitters in [-0.5; 0.5]; (0, 0) if count is 1. */
+/* Sample `index` of `count` of a low-discrepancy pattern of jitters, whose mean is 0; (0, 0) if count is 1. They are in
+ * [-0.5; 0.5] where count is a power of two, and else at most 0.005 beyond. It takes time in proportion to count. */
 void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2]);
+
+/* Which of the `share` (1, 2 or 4) samples of a group of it stands for all of them, so that these are even over a
+ * pixel as well, and their mean is 0 where count is a power of two. */
+uint32_t host_camera_jitter_turn(uint32_t group, uint32_t share);
 
 /* Distance in metres along the camera's axis of a depth value; INFINITY for 1 (nothing was drawn there). */
 double host_camera_distance(const host_camera *camera, float depth);

@@ -58,24 +58,23 @@ static uint32_t shading_share(const shot *s)
     return alone ? 1 : host_reuse_share(s->options.samples);
 }
 
-/* The place of a sub-frame in the sequence of jitters, which has powers of two and three: every second or fourth are
- * alike. Of sub-frames that share shading the first ones would be, so groups begin at another place each. */
+/* The place of a sub-frame in the sequence of jitters: of those that share shading the one whose turn it is comes first.
+ */
 static uint32_t jitter_place(const shot *s, uint32_t sample)
 {
     const uint32_t share = shading_share(s), group = sample / share;
-    return group * share + (sample + group) % share;
+    return group * share + (sample + host_camera_jitter_turn(group, share)) % share;
 }
 
-/* Whether a layer that is smooth has its turn in a sub-frame: one in each group, each time at another place of the
- * group, as jitter is a sequence of powers of two and three, in which every second or fourth are alike. A lens blurs
- * each sub-frame in its own way, and needs them all. The sums have as many sub-frames as were drawn before this one. */
+/* Whether a layer that is smooth has its turn in a sub-frame: one in each group. A lens blurs each sub-frame in its own
+ * way, and needs them all. The sums have as many sub-frames as were drawn before this one. */
 static bool has_turn(const shot *s, const shot_layer *layer)
 {
     const uint32_t share = host_accumulator_share(s->options.samples), place = jitter_place(s, s->sums.samples);
     const uint32_t from = layer->layer->shared_from;
     if (!from || s->options.samples < from || s->lens || shot_looks_through_lens(s))
         return true;
-    return place % share == place / share % share;
+    return place % share == host_camera_jitter_turn(place / share, share);
 }
 
 /* Whether a layer is seen in a sub-frame, or through another that shows what is behind it. */
