@@ -97,12 +97,19 @@ typedef struct way {
     uint32_t shares;
     bool flashes; /* a lamp shines in the first sub-frame of each group alone */
     bool shines;  /* in all */
+    float spot;   /* intensity of another lamp, with a hard edge on the plane; 0: of one that shines to all sides */
     float part;   /* of a frame's motion, see host_camera */
 } way;
 
 static void draw_one(scene *s, const way *w, uint32_t i)
 {
-    const virga_light lamp = {.position_m = {0, 6, 4}, .intensity = {10, 10, 10}};
+    const virga_light bulb = {.position_m = {0, 6, 4}, .intensity = {10, 10, 10}};
+    const virga_light spot = {.position_m = {2.5, 4, 4},
+                              .intensity = {w->spot, w->spot, w->spot},
+                              .direction = {0, -1, 0},
+                              .cos_inner = 0.98f,
+                              .cos_outer = 0.99f};
+    const virga_light lamp = w->spot > 0.0f ? spot : bulb;
     float jitter[2];
     host_camera now, before;
     VkCommandBuffer cmd;
@@ -247,6 +254,46 @@ static void things_on_a_surface_are_not_missed(void **state)
     assert_true(most < 0.002f);
 }
 
+/* By how much sharing makes the light of a lamp larger that shines in one of four sub-frames, where its edge is. */
+static float shared_at_edge(scene *s, float intensity)
+{
+    float sums[2] = {0, 0}, most = 0;
+    draw(s, (way){.shares = 1});
+    keep(s);
+    float *dark = malloc(sizeof s->color);
+    assert_non_null(dark);
+    memcpy(dark, s->color, sizeof s->color);
+    draw(s, (way){.shares = 1, .flashes = true, .spot = intensity});
+    keep(s);
+    draw(s, (way){.shares = SHARE, .flashes = true, .spot = intensity});
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        most = fmaxf(most, s->color[i * 4] - dark[i * 4]);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float quarter = s->color[i * 4] - dark[i * 4];
+        const bool at_edge = quarter > 0.1f * most && quarter < 0.7f * most;
+        sums[0] += at_edge ? quarter : 0;
+        sums[1] += at_edge ? s->plate.picture.color[i * 4] - dark[i * 4] : 0;
+    }
+    free(dark);
+    printf("at most %.4f in a quarter, at edges %.4f, shared %.4f\n", (double)most, (double)sums[0], (double)sums[1]);
+    return sums[1] / sums[0];
+}
+
+/* White under the sky is 1. Ground of 0.06 is brighter by many times at both edges; by 0.1, nobody sees that. */
+static void dark_surfaces_are_shaded_once_though_they_differ(void **state)
+{
+    scene *s = *state;
+    float *color = s->plane.materials[0].base_color;
+    for (int c = 0; c < 3; c++)
+        color[c] = 0.02f;
+    const float dim = shared_at_edge(s, 100), bright = shared_at_edge(s, 1000);
+    for (int c = 0; c < 3; c++)
+        color[c] = PLANE_ALBEDO;
+    printf("larger by %.3f, and where it is bright by %.3f\n", (double)dim, (double)bright);
+    assert_float_equal(dim, SHARE, 0.4);
+    assert_true(bright < 0.8f * SHARE);
+}
+
 static float light_at(scene *s, way w, int x, int y)
 {
     draw(s, (way){.shares = 1});
@@ -345,6 +392,7 @@ int main(void)
         cmocka_unit_test(edges_take_what_was_shaded_once),
         cmocka_unit_test(things_on_a_surface_are_not_missed),
         cmocka_unit_test(what_moves_by_itself_is_shaded_each_time_and_the_rest_once),
+        cmocka_unit_test(dark_surfaces_are_shaded_once_though_they_differ),
         cmocka_unit_test(what_moving_glass_may_cover_is_shaded_each_time),
         cmocka_unit_test(what_a_fast_mirror_image_may_cover_is_shaded_each_time),
         cmocka_unit_test(what_moves_goes_so_many_pixels_as_its_way_is_long),

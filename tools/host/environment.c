@@ -208,3 +208,11 @@ void host_environment_irradiance(const float sh[9][3], const float normal[3], fl
     for (int c = 0; c < 3; c++)
         rgb[c] = fmaxf(rgb[c], 0.0f);
 }
+
+float host_environment_white(const host_environment *environment)
+{
+    const float up[3] = {0, 1, 0};
+    float rgb[3];
+    host_environment_irradiance(environment->sh, up, rgb);
+    return fmaxf(rgb[0], fmaxf(rgb[1], rgb[2])) / 3.14159265f;
+}

@@ -38,4 +38,7 @@ void host_environment_destroy(host_device *device, host_environment *environment
 void host_environment_radiance(const host_environment *environment, const float direction[3], float rgb[3]);
 void host_environment_irradiance(const float sh[9][3], const float normal[3], float rgb[3]);
 
+/* The most of the colors of a white, matt, level surface under it. */
+float host_environment_white(const host_environment *environment);
+
 #endif

@@ -697,6 +697,7 @@ static void draw_first(drawing *d, const host_target *target, const host_camera 
     draw_scene(d);
     host_target_end_plate(target, d->cmd);
     if (shares) {
+        r->reuse.white = host_environment_white(r->environment);
         const host_moving moving = find_moving(r, camera);
         host_reuse_find(&r->reuse, d->cmd, target, camera->part, &moving);
     }

@@ -39,7 +39,8 @@ typedef struct host_reuse {
     host_image places;                       /* of the pixels to take, see shaders/reuse.glsl */
     host_image first[HOST_PLATE_COLORS + 1]; /* the sub-frame that was shaded everywhere: 56 bytes a pixel */
     host_buffer planes;                      /* of the depth of each block, see shaders/reuse.glsl */
-    host_image kinds;                        /* for each block, whether it is kept, taken or shaded */
+    float white; /* color of a white surface under the sky of what is drawn next; darker ones differ less. Default 0 */
+    host_image kinds;        /* for each block, whether it is kept, taken or shaded */
     VkRenderPass pass;       /* keeps the plate's colors, clears depth; compatible with that of the plate */
     VkRenderPass shade_pass; /* of the target: keeps all */
     VkRenderPass slope_pass, choose_pass;

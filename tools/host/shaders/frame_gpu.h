@@ -157,6 +157,7 @@ struct host_reuse_gpu { /* push constants */
     HOST_UINT height;
     float contrast; /* share of the brighter one that neighbours on a surface may differ by */
     float edge;     /* and where a surface ends */
+    float dark;     /* color that is compared as if it was so bright */
     float moved2;   /* square of the pixels that it may move in a frame */
     float shift_x;  /* pixels from where the sub-frame sees a point to where that did which it shares with */
     float shift_y;
