@@ -59,8 +59,8 @@ float mirror_level(float alpha, float u, float cosine, float way, float from)
 // Facets whose slopes are spread around the normal's as roughness says (Beckmann's distribution), weighted by how much
 // of each is seen. rgb: light they mirror of what the picture shows; w: share of a white world's light that would be.
 // `fresnel`: that share with what the picture does not show. Were it the flat water's, not the facets' mean, water
-// whose waves are too far away to be drawn would be white towards the horizon.
-vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float fresnel)
+// whose waves are too far away to be drawn would be white towards the horizon. `open`: share of the sky that is seen.
+vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, float open, out float fresnel)
 {
     const float rise = relative.y - frame.mirror.x;
     const float off = abs(rise), from = length(relative);
@@ -75,8 +75,10 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
         seen = 1.0 / textureLod(mirror_near, mirror_at(point, trust), 0.0).r;
         way = clamp(seen - from, 0.05, way);
     }
-    // Ground that lies a little above the plane is not in the picture, so on a slope the sky is seen under things.
-    near *= seen < 0.9 * HOST_MIRROR_FAR ? 1.0 : 1.0 - smoothstep(0.3, 0.8, off);
+    // Ground that lies a little above the plane is not in the picture, so on a slope the sky is seen under things. Below
+    // a car it is seen at once: the car's image lies beside itself by twice the rise.
+    const float hidden = (1.0 - smoothstep(0.05, 0.3, open)) * smoothstep(0.02, 0.1, off);
+    near *= seen < 0.9 * HOST_MIRROR_FAR ? 1.0 : (1.0 - hidden) * (1.0 - smoothstep(0.3, 0.8, off));
     // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.
     const vec2 along = dot(v.xz, v.xz) > 1e-6 ? normalize(v.xz) : vec2(0.0, 1.0), across = vec2(-along.y, along.x);
     const float alpha = roughness * roughness;

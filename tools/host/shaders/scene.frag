@@ -264,7 +264,7 @@ vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water, vec3 lamps)
     vec3 r = reflect(-v, up);
     r.y = abs(r.y);
     float fresnel;
-    vec4 scene = mirror_light(in_relative, v, up, water.roughness, fresnel);
+    vec4 scene = mirror_light(in_relative, v, up, water.roughness, moments.w, fresnel);
     vec3 sky = reflected_light(r, water.roughness) * sky_share(moments, r);
     vec3 mirror = scene.rgb + (fresnel - scene.a) * sky;
     return color * (1.0 - fresnel) + mirror + lamps;
