@@ -237,8 +237,8 @@ vec2 weighted(ivec4 sum)
 #define WET 2u   // there is any water
 
 // Writes a texel; returns SHOWN and WET. Red: density, compressed. Green: height (m). Blue: mist. Alpha: thickness of
-// the sheet of film (m).
-uint write_texel(ivec2 at, Texel texel)
+// the sheet of film (m), which is given.
+uint write_texel(ivec2 at, Texel texel, float sheet)
 {
     const vec2 water = WEIGHTED ? weighted(texel.sums) : summed(texel.sums, texel.drops);
     const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
@@ -250,7 +250,7 @@ uint write_texel(ivec2 at, Texel texel)
     const uint found = (shown ? SHOWN : 0u) | (density > 0.0 || drops_mist > 0.0 ? WET : 0u);
     if (!HEIGHTS)
         return found;
-    const float sheet = sheet_at(texel.position), film_there = smoothstep(0.0, 3e-6, sheet);
+    const float film_there = smoothstep(0.0, 3e-6, sheet);
     imageStore(map_out, at,
                vec4(density, mix(water.y, max(water.y, 0.0), film_there) + sheet,
                     WITH_MAP ? min(drops_mist + film_mist(at), 1.0) : drops_mist, sheet));
@@ -327,13 +327,26 @@ uint write_texels(ivec2 first)
 #define PICK(k) \
     if (i == k) \
         texel = texel##k;
-    for (int i = 0; i < 64 / LANES; i++) {
-        Texel texel = texel0;
-        FOR_EACH(PICK)
-        const uint found = write_texel(first + ivec2(0, i), texel);
-        shown |= found & SHOWN;
-        rows |= (found & WET) / WET << i;
+#if LANES == 8
+    int cells = sheet_row(first);
+    float above = sheet_along(first.x, cells);
+    for (int i = 0; i < 8; cells++) { // each row of cells, and the texels between it and the next
+        const float below = above;
+        above = sheet_along(first.x, cells + 1);
+        for (; i < 8 && sheet_row(first + ivec2(0, i)) == cells; i++) {
+            Texel texel = texel0;
+            FOR_EACH(PICK)
+            const ivec2 at = first + ivec2(0, i);
+            const uint found = write_texel(at, texel, sheet_between(at, below, above));
+            shown |= found & SHOWN;
+            rows |= (found & WET) / WET << i;
+        }
     }
+#else // 64: one texel
+    const uint found = write_texel(first, texel0, sheet_at(texel0.position));
+    shown = found & SHOWN;
+    rows = (found & WET) / WET;
+#endif
     return rows == 0u ? 0u : 1u << column | rows << (8u + row) | shown << SHOWN_BIT;
 }
 

@@ -39,6 +39,38 @@ void load_sheets(ivec2 first)
 #endif
 }
 
+#if LANES == 8
+// An invocation has a column of texels. Going up, two rows of cells at a time lie below and above its texels, and the
+// upper one becomes the lower one. So the sheet is interpolated along u once for each row of cells, and not for each
+// texel: two cells are read for a row of cells, where each of its texels would read four.
+//
+// The row of cells below a texel. Where cells are smaller than texels, the texel's own row.
+int sheet_row(ivec2 texel)
+{
+    if (!FILM)
+        return 0;
+    return interpolates_film() ? int(floor(middle_of(texel).y / look.pane.cell_m - 0.5)) : texel.y;
+}
+
+// The sheet on such a row, interpolated along u between two cells; or that on the nearest cell.
+float sheet_along(int column, int row)
+{
+    if (!FILM)
+        return 0.0;
+    const bool between = interpolates_film();
+    const vec2 at = middle_of(ivec2(column, row)) / look.pane.cell_m - 0.5;
+    const float low = floor(between ? at.x : at.x + 0.5);
+    const ivec2 cell = ivec2(low, between ? row : int(floor(at.y + 0.5)));
+    return mix(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), between ? at.x - low : 0.0);
+}
+
+// The sheet at a texel between the rows below and above it.
+float sheet_between(ivec2 texel, float below, float above)
+{
+    const float at = middle_of(texel).y / look.pane.cell_m - 0.5;
+    return FILM ? mix(below, above, interpolates_film() ? at - floor(at) : 0.0) : 0.0;
+}
+#else // 64
 // That on a cell, and on the three above and to the right of it.
 vec4 sheets_from(ivec2 cell)
 {
@@ -61,6 +93,7 @@ float sheet_at(vec2 point)
     const vec4 four = sheets_from(ivec2(low));
     return mix(mix(four.x, four.y, t.x), mix(four.z, four.w, t.x), t.y);
 }
+#endif
 
 // Loads the balls of a cell's thread. They get thinner as it breaks.
 void load_thread(ivec2 cell, uint water, vec2 link, float fresh)
