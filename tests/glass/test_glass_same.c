@@ -11,12 +11,13 @@ static void crowd(shot *s)
 }
 
 /* A frame's map and pixels, with film and beads; to be freed. The second of two. */
-static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
+static float *whole_frame(const char *threads, const virga_glass_def *def, uint32_t lanes, size_t *size)
 {
     shot s;
     ball balls[BALLS];
     effect_device_set_threads(threads);
-    open_small(&s);
+    shot_open(&s, def, WIDTH, HEIGHT, false);
+    shot_face(&s, 1, 30);
     if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
         REQUIRE(glass_picture_use_lanes(s.glass, lanes) == VIRGA_OK);
     s.settings.pinning = 0.7f;
@@ -99,12 +100,12 @@ typedef struct way {
     uint32_t lanes;
 } way;
 
-static void compare_ways(const way *ways, int count)
+static void compare_ways(const virga_glass_def *def, const way *ways, int count)
 {
     size_t size = 0;
-    float *first = whole_frame(ways[0].threads, ways[0].lanes, &size);
+    float *first = whole_frame(ways[0].threads, def, ways[0].lanes, &size);
     for (int i = 1; i < count; i++) {
-        float *other = whole_frame(ways[i].threads, ways[i].lanes, &size);
+        float *other = whole_frame(ways[i].threads, def, ways[i].lanes, &size);
         if (memcmp(first, other, size))
             fail_msg("other bits in run %d, with %s threads and %u lanes", i, ways[i].threads, ways[i].lanes);
         free(other);
@@ -115,14 +116,24 @@ static void compare_ways(const way *ways, int count)
 static void the_same_bits_come_out_every_time(void **state)
 {
     (void)state;
-    compare_ways((const way[]){{"1", OWN_LANES}, {"1", OWN_LANES}, {"2", OWN_LANES}}, 3);
+    compare_ways(NULL, (const way[]){{"1", OWN_LANES}, {"1", OWN_LANES}, {"2", OWN_LANES}}, 3);
 }
 
 /* By shared memory, by shuffles among a workgroup's subgroups, and as the device does it by itself. */
 static void the_same_bits_come_out_however_balls_are_handed_around(void **state)
 {
     (void)state;
-    compare_ways((const way[]){{"2", OWN_LANES}, {"2", 0}, {"2", 64}}, 3);
+    compare_ways(NULL, (const way[]){{"2", OWN_LANES}, {"2", 0}, {"2", 64}}, 3);
+}
+
+/* Film is interpolated between cells only where they are no smaller than texels; else a texel has the nearest one. */
+static void the_same_bits_come_out_where_texels_are_larger_than_cells(void **state)
+{
+    (void)state;
+    virga_glass_def def = shot_def();
+    def.max_texels = 64;
+    def.cell_m = 0.001f;
+    compare_ways(&def, (const way[]){{"2", OWN_LANES}, {"2", 0}}, 2);
 }
 
 /* What a GPU says of its subgroups is not what a shader runs with: it may lack lanes. */
@@ -149,6 +160,7 @@ int main(void)
         cmocka_unit_test(the_paper_shows_the_same_however_balls_are_handed_around),
         cmocka_unit_test(the_same_bits_come_out_every_time),
         cmocka_unit_test(the_same_bits_come_out_however_balls_are_handed_around),
+        cmocka_unit_test(the_same_bits_come_out_where_texels_are_larger_than_cells),
         cmocka_unit_test(only_processors_shuffle),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
