@@ -75,8 +75,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, float ope
         seen = 1.0 / textureLod(mirror_near, mirror_at(point, trust), 0.0).r;
         way = clamp(seen - from, 0.05, way);
     }
-    // Ground that lies a little above the plane is not in the picture, so on a slope the sky is seen under things. Below
-    // a car it is seen at once: the car's image lies beside itself by twice the rise.
+    // Ground that lies a little above the plane is not in the picture, so on a slope the sky is seen under things, and
+    // under a car at once: the car's image lies beside itself by twice the rise.
     const float hidden = (1.0 - smoothstep(0.05, 0.3, open)) * smoothstep(0.02, 0.1, off);
     near *= seen < 0.9 * HOST_MIRROR_FAR ? 1.0 : (1.0 - hidden) * (1.0 - smoothstep(0.3, 0.8, off));
     // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.

@@ -58,8 +58,8 @@ static uint32_t shading_share(const shot *s)
     return alone ? 1 : host_reuse_share(s->options.samples);
 }
 
-/* The place of a sub-frame in the sequence of jitters: of those that share shading the one whose turn it is comes first.
- */
+/* The place of a sub-frame in the sequence of jitters: of a group that shares shading, the one whose turn it is comes
+ * first. */
 static uint32_t jitter_place(const shot *s, uint32_t sample)
 {
     const uint32_t share = shading_share(s), group = sample / share;
