@@ -292,7 +292,7 @@ static double sobol(uint32_t index, int axis)
 }
 
 /* Less the mean of all, as a picture would lie beside itself by that: four of Halton's sequence by a tenth of a pixel,
- * which is half of their error. Of Sobol's first four no two have that mean, of these the first and the last do. */
+ * which was a tenth of their error. Of Sobol's first four no two have that mean, of these the first and the last do. */
 void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2])
 {
     static const float four[4][2] = {{-0.375f, 0.125f}, {0.125f, 0.375f}, {-0.125f, -0.375f}, {0.375f, -0.125f}};

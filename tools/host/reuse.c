@@ -264,9 +264,17 @@ void host_reuse_destroy(host_device *device, host_reuse *u)
 
 /* ---- recording ---------------------------------------------------------------------------------------------- */
 
-static float darkest(const host_reuse *u)
+/* `shift_px`: NULL where there is none yet. */
+static struct host_reuse_gpu push_of(const host_reuse *u, const float shift_px[2])
 {
-    return u->white * DARK > 1e-6f ? u->white * DARK : 1e-6f;
+    const float dark = u->white * DARK;
+    return (struct host_reuse_gpu){.width = u->width,
+                                   .height = u->height,
+                                   .contrast = CONTRAST,
+                                   .edge = EDGE,
+                                   .dark = dark > 1e-6f ? dark : 1e-6f,
+                                   .shift_x = shift_px ? shift_px[0] : 0.0f,
+                                   .shift_y = shift_px ? shift_px[1] : 0.0f};
 }
 
 static void bind(const host_reuse *u, VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline,
@@ -315,12 +323,8 @@ void host_reuse_find(const host_reuse *u, VkCommandBuffer cmd, const host_target
                      const host_moving *moving)
 {
     const float moved = MOVED_PX / (part > 1e-6f ? part : 1e-6f);
-    struct host_reuse_gpu push = {.width = u->width,
-                                  .height = u->height,
-                                  .contrast = CONTRAST,
-                                  .edge = EDGE,
-                                  .dark = darkest(u),
-                                  .moved2 = moved * moved};
+    struct host_reuse_gpu push = push_of(u, NULL);
+    push.moved2 = moved * moved;
     host_moving_push(moving, &push);
     host_target_begin_read(target, cmd, HOST_VELOCITY);
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
@@ -353,12 +357,7 @@ void host_reuse_begin_depth(const host_reuse *u, VkCommandBuffer cmd)
 
 void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2], const host_moving *moving)
 {
-    struct host_reuse_gpu push = {.width = u->width,
-                                  .height = u->height,
-                                  .contrast = CONTRAST,
-                                  .dark = darkest(u),
-                                  .shift_x = shift_px[0],
-                                  .shift_y = shift_px[1]};
+    struct host_reuse_gpu push = push_of(u, shift_px);
     const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                fragment = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     host_moving_push(moving, &push);
@@ -377,12 +376,7 @@ void host_reuse_end_depth(const host_reuse *u, VkCommandBuffer cmd, const float 
 /* Only pixels that are taken pass the depth test of what takes them. */
 void host_reuse_begin_shade(const host_reuse *u, VkCommandBuffer cmd, const float shift_px[2])
 {
-    const struct host_reuse_gpu push = {.width = u->width,
-                                        .height = u->height,
-                                        .contrast = CONTRAST,
-                                        .dark = darkest(u),
-                                        .shift_x = shift_px[0],
-                                        .shift_y = shift_px[1]};
+    const struct host_reuse_gpu push = push_of(u, shift_px);
     const VkViewport between = {
         0, 0, (float)u->width, (float)u->height, (float)HOST_REUSE_BETWEEN, (float)HOST_REUSE_BETWEEN};
     host_pass_begin(cmd, u->choose_pass, u->choose_framebuffer, u->width, u->height, 1);
