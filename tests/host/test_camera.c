@@ -232,7 +232,7 @@ static void mean_jitter(uint32_t count, uint32_t share, double mean_px[2])
     mean_px[0] = mean_px[1] = 0;
     for (uint32_t group = 0; group < count / share; group++) {
         float j[2];
-        host_camera_jitter(group * share + host_camera_jitter_turn(group, share), count, j);
+        host_camera_jitter(host_camera_jitter_index(group * share, share), count, j);
         for (int axis = 0; axis < 2; axis++) {
             assert_true(fabsf(j[axis]) <= ((count & (count - 1)) == 0 ? 0.5f : 0.505f));
             mean_px[axis] += (double)j[axis] * share / count;

@@ -113,7 +113,7 @@ static void draw_one(scene *s, const way *w, uint32_t i)
     float jitter[2];
     host_camera now, before;
     VkCommandBuffer cmd;
-    host_camera_jitter(i, SAMPLES, jitter);
+    host_camera_jitter(host_camera_jitter_index(i, SHARE), SAMPLES, jitter);
     host_camera_at(&path, 0.5, WIDTH, HEIGHT, jitter, &now);
     host_camera_at(&path, 0.5 - 1.0 / 24.0, WIDTH, HEIGHT, NULL, &before);
     now.samples = SAMPLES;

@@ -31,6 +31,7 @@ typedef struct scene {
     host_mesh wall, bar;
     float empty[WIDTH * HEIGHT * 4]; /* the picture without the bar */
     float color[WIDTH * HEIGHT * 4]; /* of another one */
+    uint32_t order;                  /* of jitters: for so many that share */
 } scene;
 
 /* A bar in the plane z = 0 turns about an axis. */
@@ -107,7 +108,7 @@ static void draw_one(scene *s, uint32_t sample, uint32_t samples, uint32_t share
     VkCommandBuffer cmd;
     float jitter[2];
     host_camera camera;
-    host_camera_jitter(sample, samples, jitter);
+    host_camera_jitter(host_camera_jitter_index(sample, s->order), samples, jitter);
     host_camera_at(&path, 0, WIDTH, HEIGHT, jitter, &camera);
     camera.samples = samples;
     camera.sample = sample;
@@ -143,6 +144,17 @@ static void draw(scene *s, uint32_t samples, uint32_t shares)
     finish(s);
 }
 
+/* Keeps the picture without a bar. */
+static void draw_empty(scene *s, uint32_t samples, uint32_t shares)
+{
+    static const host_vertex nothing[HOST_SWEPT_VERTICES(PLACES)];
+    host_accumulator_reset(&s->plate.sums);
+    for (uint32_t i = 0; i < samples; i++)
+        draw_one(s, i, samples, shares, nothing);
+    finish(s);
+    memcpy(s->empty, s->plate.picture.color, sizeof s->empty);
+}
+
 /* The middle of a pixel in the plane z = 0. */
 static void point_of(int x, int y, double point[2])
 {
@@ -165,18 +177,14 @@ static double covered(const scene *s, int x, int y)
     return 1 - (double)s->plate.picture.color[at] / (double)s->empty[at];
 }
 
-/* What it hides of the wall where it stands still, as a share: of no albedo it still mirrors some of the white sky.
- * Keeps the picture without it, too. */
+/* What it hides of the wall where it stands still, as a share: of no albedo it still mirrors some of the white sky. */
 static double hidden_by_bar(scene *s)
 {
     host_vertex vertices[HOST_SWEPT_VERTICES(PLACES)];
     host_swept_place at[PLACES];
     const host_swept_view view = {.eye_m = {0, 0, 4}};
-    memset(vertices, 0, sizeof vertices);
-    host_accumulator_reset(&s->plate.sums);
-    draw_one(s, 0, 1, 1, vertices);
-    finish(s);
-    memcpy(s->empty, s->plate.picture.color, sizeof s->empty);
+    s->order = 1;
+    draw_empty(s, 1, 1);
     place(M_PI / 2, at);
     const host_swept_bar bar = {.before = at, .open = at, .close = at, .count = PLACES, .half_width_m = 3 * BAR_WIDE};
     host_swept_put(&bar, &view, vertices);
@@ -189,6 +197,8 @@ static double hidden_by_bar(scene *s)
 static void check_turning(scene *s, uint32_t samples, uint32_t shares, double black)
 {
     double worst = 0, most = 0, sum = 0, wanted_sum = 0;
+    s->order = shares;
+    draw_empty(s, samples, shares);
     draw(s, samples, shares);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -206,8 +216,8 @@ static void check_turning(scene *s, uint32_t samples, uint32_t shares, double bl
     printf("%2u samples, %u share: at most %.4f off, most %.3f; sum %.2f, wanted %.2f\n", samples, shares, worst, most,
            sum, wanted_sum);
     assert_true(most > 0.5 && wanted_sum > 50);
-    assert_float_equal(sum / wanted_sum, 1, 0.01);
-    assert_true(worst < (samples == 1 ? 0.01 : 0.12));
+    assert_float_equal(sum / wanted_sum, 1, 0.02); /* jitter moves some of it over the columns that are left out */
+    assert_true(worst < (samples == 1 ? 0.01 : 0.13));
 }
 
 static void a_bar_hides_what_is_behind_it_for_its_share_of_the_time(void **state)
@@ -228,6 +238,7 @@ static void sub_frames_that_share_shading_see_it_in_their_own_places(void **stat
     const double black = hidden_by_bar(s);
     double most = 0;
     check_turning(s, 4, 2, black);
+    s->order = 4;
     draw(s, 16, 1);
     memcpy(s->color, s->plate.picture.color, sizeof s->color);
     check_turning(s, 16, 4, black);

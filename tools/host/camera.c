@@ -310,6 +310,12 @@ uint32_t host_camera_jitter_turn(uint32_t group, uint32_t share)
     return share == 4 ? of_four[group % 4] : group % share;
 }
 
+uint32_t host_camera_jitter_index(uint32_t sample, uint32_t share)
+{
+    const uint32_t group = sample / share;
+    return group * share + (sample + host_camera_jitter_turn(group, share)) % share;
+}
+
 double host_camera_distance(const host_camera *camera, float depth)
 {
     if (!(depth < 1.0f))

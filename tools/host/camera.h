@@ -87,6 +87,10 @@ void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2]);
  * pixel as well, and their mean is 0 where count is a power of two. */
 uint32_t host_camera_jitter_turn(uint32_t group, uint32_t share);
 
+/* The index of the jitter of a sub-frame where each `share` after each other share something that their first one has:
+ * the jitter whose turn it is comes first. */
+uint32_t host_camera_jitter_index(uint32_t sample, uint32_t share);
+
 /* Distance in metres along the camera's axis of a depth value; INFINITY for 1 (nothing was drawn there). */
 double host_camera_distance(const host_camera *camera, float depth);
 

@@ -58,19 +58,12 @@ static uint32_t shading_share(const shot *s)
     return alone ? 1 : host_reuse_share(s->options.samples);
 }
 
-/* The place of a sub-frame in the sequence of jitters: of a group that shares shading, the one whose turn it is comes
- * first. */
-static uint32_t jitter_place(const shot *s, uint32_t sample)
-{
-    const uint32_t share = shading_share(s), group = sample / share;
-    return group * share + (sample + host_camera_jitter_turn(group, share)) % share;
-}
-
 /* Whether a layer that is smooth has its turn in a sub-frame: one in each group. A lens blurs each sub-frame in its own
  * way, and needs them all. The sums have as many sub-frames as were drawn before this one. */
 static bool has_turn(const shot *s, const shot_layer *layer)
 {
-    const uint32_t share = host_accumulator_share(s->options.samples), place = jitter_place(s, s->sums.samples);
+    const uint32_t share = host_accumulator_share(s->options.samples),
+                   place = host_camera_jitter_index(s->sums.samples, shading_share(s));
     const uint32_t from = layer->layer->shared_from;
     if (!from || s->options.samples < from || s->lens || shot_looks_through_lens(s))
         return true;
@@ -269,7 +262,7 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     float jitter[2];
     double lens_m[2];
     sample_cameras steady = {.focus_inv_m = shot_focus_inv_m(s, camera_s)}, cameras = steady;
-    host_camera_jitter(jitter_place(s, sample), s->options.samples, jitter);
+    host_camera_jitter(host_camera_jitter_index(sample, shading_share(s)), s->options.samples, jitter);
     lens_point(s, sample, lens_m);
     place_cameras(s, close_s, part_s, shot_start, NULL, lens_m, &steady);
     place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
