@@ -62,9 +62,9 @@ differ() {
 }
 is() { awk -v a="$1" -v b="$3" "BEGIN { exit !(a $2 b) }"; }
 
-# The tolerance: blur by depth differs from 128 looks through the lens by 5 % of the picture's mean, and keeps the light
-# within 1 %. A sharp picture differs by more than 15 %.
-render gather --samples 4 --layers beauty,depth
+# The tolerance: blur by depth differs from 128 looks through the lens by 5 % of the picture's mean. A sharp picture
+# differs by more than 15 %. Of the light 4 % may be missing: looks beside the pole see more of the lamp that it hides.
+render gather --samples 16 --layers beauty,depth
 render exact --samples 128 --layers beauty,depth --set camera.blur=exact
 render sharp --samples 4 --layers beauty,depth --set camera.aperture_f=0
 light=$(mean "$work/exact/frame.0001.exr")
@@ -74,7 +74,18 @@ echo "mean light $light, difference of gather $gather, of a sharp picture $sharp
 is "$gather" '<' "$(awk "BEGIN { print 0.05 * $light }")" || fail "gather differs by $gather of $light"
 is "$sharp" '>' "$(awk "BEGIN { print 0.15 * $light }")" || fail "a sharp picture differs only by $sharp of $light"
 kept=$(awk -v a="$(mean "$work/gather/frame.0001.exr")" -v b="$light" 'BEGIN { print a / b }')
-is "$kept" '>' 0.99 && is "$kept" '<' 1.01 || fail "gather has $kept of the light"
+is "$kept" '>' 0.96 && is "$kept" '<' 1.01 || fail "gather has $kept of the light"
+
+# Without the pole no light is hidden, and all of it is kept.
+sed '/^o pole/,$d' "$work/chart.obj" >"$work/open.obj"
+cp "$work/chart.yaml" "$work/full.yaml"
+sed -i 's/chart.obj/open.obj/' "$work/chart.yaml"
+render open --samples 16 --layers beauty,depth
+render open_sharp --samples 16 --layers beauty,depth --set camera.aperture_f=0
+cp "$work/full.yaml" "$work/chart.yaml"
+kept=$(awk -v a="$(mean "$work/open/frame.0001.exr")" -v b="$(mean "$work/open_sharp/frame.0001.exr")" \
+    'BEGIN { print a / b }')
+is "$kept" '>' 0.995 && is "$kept" '<' 1.005 || fail "without the pole gather has $kept of the light"
 
 # A rack focus: at its keys the focus is on what they name, and the whole way there it is between them.
 keys='[{time_s: 0, focus_on: board}, {time_s: 0.125, focus_on: lamp_b}]'
