@@ -89,7 +89,7 @@ jobs_left() {
 }
 
 # Half of the kills take the whole task, the other half the render in it.
-killed=0
+killed=0 restarted=false
 for _ in $(seq 1200); do
     if [ "$killed" -lt "$kills" ]; then
         if [ $((killed % 2)) = 0 ]; then
@@ -97,7 +97,8 @@ for _ in $(seq 1200); do
         else
             pkill -9 -o -f "slurm_script" && killed=$((killed + 1))
         fi
-        if [ "$killed" = $((kills / 2)) ]; then
+        if [ "$killed" = $((kills / 2)) ] && ! $restarted; then # once: no task starts while they do
+            restarted=true
             stop_daemons
             start_daemons || fail "Slurm does not start again"
         fi
