@@ -200,6 +200,9 @@ typedef struct tool_effect {
     /* Whether the scene uses it. NULL: always. If not, `missing` names what the scene lacks. */
     bool (*is_used)(const scene_file *scene);
     const char *missing; /* "panes; expected a list of them, glass" */
+    /* Whether a step of it takes longer than to draw a frame: several processes, each of which steps through all
+     * frames, are no quicker then. NULL: never. */
+    bool (*has_slow_steps)(const scene_file *scene);
 
     /* The key and the value of the random seed. Only one effect has them; the others use its seed. */
     const char *seed_key;

@@ -541,6 +541,7 @@ const tool_effect water_effect = {
     .name = "water",
     .scene = {.group = SCENE_GROUP(scene_water, water_section), .check = check_water},
     .is_used = is_used,
+    .has_slow_steps = water_is_solved,
     .missing = "water; expected water.files or water.solver",
     .check = check,
     .check_files = check_files,

@@ -290,13 +290,27 @@ static int write_line(const jsonl *file)
     return code;
 }
 
-bool jsonl_end_line(jsonl *file, char *error, size_t error_size)
+static bool finish_line(jsonl *file, char *error, size_t error_size)
 {
-    while (file->depth)
-        jsonl_end(file);
     put(file, "\n", 1);
     int code = file->failure ? file->failure : write_line(file);
     file->used = 0;
     file->failure = 0;
     return code == 0 || file_error(error, error_size, "cannot write", file->path, code);
+}
+
+bool jsonl_end_line(jsonl *file, char *error, size_t error_size)
+{
+    while (file->depth)
+        jsonl_end(file);
+    return finish_line(file, error, error_size);
+}
+
+bool jsonl_add_line(jsonl *file, const char *line, size_t length, char *error, size_t error_size)
+{
+    jsonl_begin(file);
+    file->used = 0;
+    file->depth = 0;
+    put(file, line, length);
+    return finish_line(file, error, error_size);
 }

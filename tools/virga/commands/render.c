@@ -1,15 +1,11 @@
-/* render.c - `virga render`: a scene's frames to disk, each whole or absent. */
-#include "commands/commands.h"
+/* render.c - `virga render`: a scene's frames to disk. Reads the command line, and makes the film. */
+#include "commands/render_job.h"
 #include "effect.h"
 #include "file.h"
 #include "frame/claims.h"
 #include "frame/files.h"
 #include "frame/layers.h"
 #include "frame/resume.h"
-#include "frame/writer.h"
-#include "options.h"
-#include "progress.h"
-#include "shot/checkpoint.h"
 #include "shot/plate.h"
 #include "volume.h"
 
@@ -79,6 +75,11 @@ static const option_row rows[] = {
      "another task is drawing is left to it, and one that has failed three times is left out. TASK is a name, under "
      "which statistics go to DIR/farm/stats.TASK.jsonl",
      false},
+    {"--jobs", 0, "N",
+     "processes that draw frames at the same time, 1 to 64: the same files, in less time but with N times the memory. "
+     "Default on software Vulkan, for more than a few small frames: as many as there are processors, 8 at most, where "
+     "memory is free for them; else 1",
+     false},
     {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50. May be repeated", true},
@@ -113,22 +114,22 @@ void render_help(void)
            "names, 3 (--claim) frames that failed three times are missing, 130 interrupted.\n");
 }
 
-typedef struct render_job {
-    options parsed;
-    scene_file *scene;
-    shot shot;
-    shot_options how;
-    const char *directory, *task; /* task: of --claim, or NULL */
-    uint32_t frames[2], layers;
-    picture_format picture; /* bits 0: none */
-    bool points, meshes, volumes, stats, preview, resume, simulate;
-    jsonl stats_file;
-    bool stats_open;
-    bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
-    frame_writer writer;
-    uint32_t gave_up;
-    char error[1024];
-} render_job;
+/* Each process reads the scene. */
+static bool read_jobs(render_job *job)
+{
+    struct stat info;
+    const char *path = job->parsed.arguments[0];
+    if (!options_uint(&job->parsed, "--jobs", 1, WORKERS_MAX, &job->jobs))
+        return false;
+    if (job->jobs && (job->task || job->simulate))
+        return options_complain("render", "--jobs: expected no %s with it", job->task ? "--claim" : "--simulate");
+    const bool once = !stat(path, &info) && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+    if (once && job->jobs > 1)
+        return options_complain("render", "--jobs: expected a scene in a file, as each process reads it; got %s", path);
+    if (once)
+        job->jobs = 1;
+    return true;
+}
 
 static bool read_options(render_job *job, int argc, char **argv)
 {
@@ -158,7 +159,7 @@ static bool read_options(render_job *job, int argc, char **argv)
     if (job->simulate && (job->points || job->meshes || job->volumes || job->stats || job->preview))
         return options_complain("render",
                                 "--simulate: expected no --points, --meshes, --volumes, --stats or --preview with it");
-    return frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
+    return read_jobs(job) && frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
 }
 
 /* Loads the scene with what the command line overrides. --seed is one more override, so it is in the hash. */
@@ -284,192 +285,6 @@ static resume_request request_of(const render_job *job)
                             .stats = job->stats};
 }
 
-static bool open_stats(render_job *job)
-{
-    char path[4096];
-    const resume_request request = request_of(job);
-    if (!job->stats)
-        return true;
-    if (job->resume && !job->task && !resume_trim_stats(&request, job->there, job->error, sizeof job->error))
-        return fail(job);
-    if (job->task)
-        snprintf(path, sizeof path, "%s/farm/stats.%s.jsonl", job->directory, job->task);
-    else
-        snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
-    job->stats_open =
-        jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error, sizeof job->error);
-    return job->stats_open || fail(job);
-}
-
-/* ---- frames */
-
-/* Goes on from the nearest checkpoint, if one is nearer than the current frame. One that can not be loaded is only
- * slower, unless a part of it was. */
-static bool start_from_checkpoint(render_job *job, uint32_t frame)
-{
-    char reason[1024];
-    uint32_t found;
-    bool torn;
-    shot *s = &job->shot;
-    if (!checkpoint_find(s, job->directory, frame, &found))
-        return true;
-    const bool preroll = found + 1 == job->scene->frames.first;
-    const bool loaded = checkpoint_load(s, job->directory, found, &torn, reason, sizeof reason);
-    if (torn)
-        return host_fail(job->error, sizeof job->error, "the checkpoint of frame %u is damaged, delete it: %s", found,
-                         reason);
-    if (!loaded)
-        fprintf(stderr, "virga render: a checkpoint is not used: %s\n", reason);
-    else if (preroll)
-        fprintf(stderr, "starts from the checkpoint after the pre-roll\n");
-    else
-        fprintf(stderr, "starts from the checkpoint of frame %u\n", found);
-    return true;
-}
-
-/* Steps to the frame before, frame by frame, as the way may be long and Ctrl-C is to be heard on it. */
-static bool step_before(render_job *job, uint32_t frame)
-{
-    shot *s = &job->shot;
-    while (s->frame_index + 1 < frame && !interrupt_requested())
-        if (!shot_step(s, s->frame_index + 1, job->error, sizeof job->error))
-            return false;
-    return true;
-}
-
-/* The EXR is written last: it being there means that the frame is whole. It and the pictures are written by a thread
- * while the next frame is drawn; but a task that others share frames with first ends one. */
-static bool write_frame(render_job *job, uint32_t frame)
-{
-    host_camera camera;
-    shot *s = &job->shot;
-    char *error = job->error;
-    const size_t size = sizeof job->error;
-    if (job->simulate)
-        return shot_step(s, frame, error, size);
-    if (!shot_draw(s, frame, &camera, error, size))
-        return false;
-    virga_frame_completed(s->context, s->device.completed);
-    if (!frame_writer_wait(&job->writer, error, size) ||
-        (job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
-        (job->meshes && !frame_write_meshes(s, job->directory, frame, error, size)) ||
-        (job->volumes && !frame_write_volumes(s, job->directory, frame, error, size)) ||
-        (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)))
-        return false;
-    frame_writer_begin(&job->writer, s, &camera, frame);
-    return !job->task || frame_writer_wait(&job->writer, error, size);
-}
-
-/* Both leave what is finished; `frame` is the one to go on with. */
-static int stop_failed(render_job *job)
-{
-    char ignored[256];
-    frame_writer_wait(&job->writer, ignored, sizeof ignored);
-    options_complain("render", "%s; %u finished frames are kept in %s", job->error, job->writer.written,
-                     job->directory);
-    return EXIT_FAILED;
-}
-
-static int stop_interrupted(render_job *job, uint32_t frame)
-{
-    if (!frame_writer_wait(&job->writer, job->error, sizeof job->error))
-        return stop_failed(job);
-    options_complain("render", "interrupted: %u frames are in %s; --resume goes on with frame %u", job->writer.written,
-                     job->directory, frame);
-    return EXIT_INTERRUPTED;
-}
-
-static bool all_there(const render_job *job)
-{
-    for (uint32_t i = 0; i <= job->frames[1] - job->frames[0]; i++)
-        if (!job->there || !job->there[i])
-            return false;
-    return true;
-}
-
-static uint32_t first_missing(const render_job *job)
-{
-    uint32_t frame = job->frames[0];
-    while (job->there && job->there[frame - job->frames[0]])
-        frame++;
-    return frame;
-}
-
-/* Through the pre-roll, with a bar of its own, as it may be long and Ctrl-C is to be heard on it. */
-static bool step_preroll(render_job *job)
-{
-    shot *s = &job->shot;
-    progress bar;
-    progress_begin(&bar, "pre-roll", s->preroll);
-    while (s->preroll && !interrupt_requested()) {
-        if (!shot_step_preroll(s, job->error, sizeof job->error))
-            break;
-        progress_step(&bar, NULL);
-    }
-    progress_end(&bar);
-    return !s->preroll;
-}
-
-/* Draws a frame, if no other task does. False: failed. */
-static bool write_claimed(render_job *job, uint32_t frame, const char **left_out)
-{
-    claim taken;
-    if (!job->task)
-        return write_frame(job, frame);
-    switch (claim_take(job->directory, job->task, frame, &taken, job->error, sizeof job->error)) {
-    case CLAIM_ERROR: return false;
-    case CLAIM_THERE: *left_out = "(there already)"; return true;
-    case CLAIM_BUSY: *left_out = "(another task draws it)"; return true;
-    case CLAIM_FAILED:
-        *left_out = "(failed three times)";
-        job->gave_up++;
-        return true;
-    case CLAIM_TAKEN: break;
-    }
-    const bool written = write_frame(job, frame);
-    claim_release(job->directory, frame, &taken, !written);
-    return written;
-}
-
-/* The frames that this task has finished are whole; others may still be drawn. */
-static int end_frames(render_job *job)
-{
-    if (!frame_writer_wait(&job->writer, job->error, sizeof job->error))
-        return stop_failed(job);
-    if (!job->gave_up)
-        return EXIT_OK;
-    options_complain("render", "%u frames that failed %d times are missing; see virga farm --status %s", job->gave_up,
-                     CLAIM_MAX_FAILURES, job->directory);
-    return EXIT_GAVE_UP;
-}
-
-static int render_frames(render_job *job)
-{
-    progress bar;
-    if (!all_there(job) && !start_from_checkpoint(job, first_missing(job)))
-        return stop_failed(job);
-    if (!all_there(job) && !step_preroll(job))
-        return interrupt_requested() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
-    progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
-    for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
-        if (job->there && job->there[frame - job->frames[0]]) {
-            progress_step(&bar, "(there already)");
-            continue;
-        }
-        const bool gap = frame > job->frames[0] && job->there && job->there[frame - 1 - job->frames[0]];
-        const bool stepped = (!gap || start_from_checkpoint(job, frame)) && step_before(job, frame);
-        const bool stop = stepped && interrupt_requested();
-        const char *left_out = NULL;
-        if (stop || !stepped || !write_claimed(job, frame, &left_out)) {
-            progress_end(&bar);
-            return stop ? stop_interrupted(job, frame) : stop_failed(job);
-        }
-        progress_step(&bar, left_out);
-    }
-    progress_end(&bar);
-    return end_frames(job);
-}
-
 /* ---- the film */
 
 /* In the folder, as ffmpeg would take a '%' in the folder's name for a number. */
@@ -527,33 +342,19 @@ static void make_film(render_job *job)
 static int render_scene(render_job *job)
 {
     const resume_request request = request_of(job);
+    if (render_is_worker(job))
+        return render_as_worker(job);
     int code = make_directory(job);
     if (code != EXIT_OK)
         return code;
-    if (job->task && !claims_open(job->directory, job->error, sizeof job->error)) {
-        fail(job);
-        return EXIT_FAILED;
-    }
-    if (job->resume && !resume_find(&request, &job->there, job->error, sizeof job->error)) {
-        fail(job);
-        return EXIT_USAGE;
-    }
-    if (!shot_open(&job->shot, job->scene, &job->how, job->error, sizeof job->error)) {
-        fail(job);
-        return job->shot.input_wrong ? EXIT_USAGE : EXIT_FAILED;
-    }
-    file_clean(job->directory);
-    code = EXIT_FAILED;
-    if (!job->simulate && !frame_writer_open(&job->writer, &job->shot, job->directory, job->layers, job->preview,
-                                             job->picture, job->error, sizeof job->error)) {
-        fail(job);
-    } else if (open_stats(job)) {
-        fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0],
-                job->frames[1], job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
-        code = render_frames(job);
-    }
-    frame_writer_close(&job->writer);
-    shot_close(&job->shot);
+    if (job->task && !claims_open(job->directory, job->error, sizeof job->error))
+        return render_stop_early(job, EXIT_FAILED);
+    if (job->resume && !resume_find(&request, &job->there, job->error, sizeof job->error))
+        return render_stop_early(job, EXIT_USAGE);
+    if (job->resume && !job->task && !resume_trim_stats(&request, job->there, job->error, sizeof job->error))
+        return render_stop_early(job, EXIT_FAILED);
+    const uint32_t jobs = render_choose_jobs(job);
+    code = jobs > 1 ? render_by_workers(job, jobs) : render_here(job);
     if (code == EXIT_OK && job->preview && !job->task && job->frames[1] > job->frames[0])
         make_film(job);
     return code;
@@ -565,10 +366,14 @@ int render_run(int argc, char **argv)
     if (!job)
         return EXIT_FAILED;
     int code = EXIT_USAGE;
+    job->argument_count = argc;
+    job->arguments = argv;
+    job->worker = workers_join(&job->workers);
     if (read_options(job, argc, argv) && load_scene(job) && read_ranges(job))
         code = render_scene(job);
     if (job->stats_open)
         jsonl_close(&job->stats_file);
+    workers_close(&job->workers);
     free(job->there);
     scene_file_free(job->scene);
     free(job);

@@ -21,6 +21,8 @@ static void *write_frame(void *data)
                 (w->preview && !frame_write_preview(w->shot, &w->drawn, w->directory, w->frame, w->error, size)) ||
                 !frame_write_exr(w->shot, &w->drawn, &w->camera, w->directory, w->frame, w->layers, w->error, size);
     w->written += !w->failed;
+    if (!w->failed && w->on_written)
+        w->on_written(w->user, w->frame);
     return NULL;
 }
 

@@ -15,8 +15,10 @@ typedef struct frame_writer {
     picture_format format; /* of the beauty as a picture; bits 0: none */
     host_drawn drawn;      /* of the frame that is being written */
     host_camera camera;
-    uint32_t frame, written; /* written: frames that are whole */
-    bool busy, failed;       /* busy: `thread` runs, or has ended and was not waited for */
+    uint32_t frame, written;                        /* written: frames that are whole */
+    void (*on_written)(void *user, uint32_t frame); /* called by the thread once a frame is whole; may be NULL */
+    void *user;
+    bool busy, failed; /* busy: `thread` runs, or has ended and was not waited for */
     pthread_t thread;
     char error[1024];
 } frame_writer;
