@@ -63,7 +63,7 @@ static bool step_before(render_job *job, uint32_t frame)
 {
     shot *s = &job->shot;
     while (s->frame_index + 1 < frame && !is_stopped(job))
-        if (!shot_step(s, s->frame_index + 1, job->error, sizeof job->error))
+        if (!shot_step_unseen(s, job->error, sizeof job->error))
             return false;
     return true;
 }

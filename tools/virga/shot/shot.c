@@ -301,24 +301,37 @@ bool shot_step_preroll(shot *s, char *error, size_t error_size)
     return save_if_due(s, error, error_size);
 }
 
+static bool step_frame(shot *s, bool unseen, char *error, size_t error_size)
+{
+    s->is_unseen = unseen;
+    const bool done = step_to(s, shot_time(s, s->frame_index + 1), error, error_size);
+    s->is_unseen = false;
+    if (!done)
+        return false;
+    s->frame_index++;
+    return save_if_due(s, error, error_size);
+}
+
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
 {
     while (s->preroll)
         if (!shot_step_preroll(s, error, error_size))
             return false;
     while (s->frame_index < frame || s->frame_index + 1 == s->scene->frames.first) {
-        s->is_unseen = s->frame_index + 1 < frame;
-        const bool done = step_to(s, shot_time(s, s->frame_index + 1), error, error_size);
-        s->is_unseen = false;
-        if (!done)
-            return false;
-        s->frame_index++;
-        if (!save_if_due(s, error, error_size))
+        if (!step_frame(s, s->frame_index + 1 < frame, error, error_size))
             return false;
         if (s->frame_index >= frame)
             break;
     }
     return true;
+}
+
+bool shot_step_unseen(shot *s, char *error, size_t error_size)
+{
+    while (s->preroll)
+        if (!shot_step_preroll(s, error, error_size))
+            return false;
+    return step_frame(s, true, error, error_size);
 }
 
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)

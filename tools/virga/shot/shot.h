@@ -23,6 +23,9 @@ bool shot_step_preroll(shot *s, char *error, size_t error_size);
  * frame it also steps through the rest of the pre-roll. */
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
 
+/* Steps one frame further, of which no picture will be drawn: what only pictures need is left out. */
+bool shot_step_unseen(shot *s, char *error, size_t error_size);
+
 /* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size);
 
