@@ -64,7 +64,7 @@ static const virga_setting_row setting_rows[] = {
     RAIN(FLOAT, streak_group_mm, 0.2, 100, 100, .look = true),
     RAIN(U32, default_material, 0, 255, 0),
     RAIN(U32, occlusion_interval, 1, 16, 1),
-    RAIN(FLOAT, occlusion_tolerance, 0, 16, 1),
+    RAIN(FLOAT, occlusion_tolerance, 0, 16, 4),
     RAIN(BOOL, walls.on, false, true, true),
     RAIN(FLOAT, walls.share, 0, 2, 0.5),
     RAIN(FLOAT, walls.evaporation_mm_h, 0, 100, 0.2),
