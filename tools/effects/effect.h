@@ -41,6 +41,9 @@ typedef struct tool_layer {
     /* Number of samples from which on it is averaged from some sub-frames only, as it hardly differs between them but
      * at edges of the scene. What shows small lamps sharply needs four pictures of them. 0: all sub-frames have it. */
     uint32_t shared_from;
+    /* (shared_from) It moves, so it is drawn over the whole time of the sub-frames that share it: `prepare` gets the
+     * moment at which the last of them closes, with the shutter of all. */
+    bool spans;
     /* (is_data) Its values are pixels right and down: 1 to another place, -1 from a place a frame ago; 0: others. */
     int offset;
     host_output plate; /* (no draw) the output that holds the layer */

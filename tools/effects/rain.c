@@ -321,7 +321,8 @@ static const tool_layer layers[] = {
     {TOOL_COLOR_LAYER("haze", draw_haze, 19, "haze", "distant and fine rain, and lamps that glow in it"),
      .shared_from = 4, .depth = TOOL_DEPTH_SCENE},
     /* Each streak is drawn as wide as the lens makes it. */
-    {TOOL_COLOR_LAYER("rain", draw_streaks, 20, "rain", "the falling drops alone"), .depth = TOOL_DEPTH_FOCUS},
+    {TOOL_COLOR_LAYER("rain", draw_streaks, 20, "rain", "the falling drops alone"), .shared_from = 4, .spans = true,
+     .depth = TOOL_DEPTH_FOCUS},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */

@@ -50,12 +50,29 @@ static bool draw_colors(const shot *s, VkCommandBuffer cmd, uint32_t count, cons
 
 /* ---- sub-frames that share */
 
+/* Of a sub-frame. */
+typedef struct sample_moments {
+    tool_moment own;
+    tool_moment span; /* over all sub-frames of its group, see tool_layer.spans */
+    bool has_mirrors; /* mirrors are drawn, not shared */
+} sample_moments;
+
 /* So many after each other share the shading of the plate. Through a lens each sees its things elsewhere, and where the
  * velocity is that of the water, it is drawn over the plate's. */
 static uint32_t shading_share(const shot *s)
 {
     const bool alone = s->plate || s->moving_target || shot_looks_through_lens(s);
     return alone ? 1 : host_reuse_share(s->options.samples);
+}
+
+/* Whether layers may be drawn over the time of several sub-frames. Panes show what is behind them in each, and the
+ * velocity of water is drawn in each. */
+static bool may_span(const shot *s)
+{
+    bool each = s->lens || shot_looks_through_lens(s) || s->moving_target;
+    for (uint32_t i = 0; i < s->layer_count && !each; i++)
+        each = effect_of(&s->layers[i])->shows_behind;
+    return !each && host_accumulator_share(s->options.samples) > 1;
 }
 
 /* Whether a layer that is smooth has its turn in a sub-frame: one in each group. A lens blurs each sub-frame in its own
@@ -65,7 +82,8 @@ static bool has_turn(const shot *s, const shot_layer *layer)
     const uint32_t share = host_accumulator_share(s->options.samples),
                    place = host_camera_jitter_index(s->sums.samples, shading_share(s));
     const uint32_t from = layer->layer->shared_from;
-    if (!from || s->options.samples < from || s->lens || shot_looks_through_lens(s))
+    if (!from || s->options.samples < from || s->lens || shot_looks_through_lens(s) ||
+        (layer->layer->spans && !may_span(s)))
         return true;
     return place % share == host_camera_jitter_turn(place / share, share);
 }
@@ -123,14 +141,33 @@ static bool draw_layers(shot *s, VkCommandBuffer cmd, const tool_moment *at, cha
 
 /* ---- the picture */
 
+/* Of the layers of an effect: whether some are drawn now, and whether some span several sub-frames. Mirrors show haze
+ * too, where they are drawn. */
+static void find_uses(const shot *s, uint32_t effect, const sample_moments *moments, bool *drawn, bool *spans)
+{
+    *drawn = moments->has_mirrors;
+    *spans = false;
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        if (s->layers[i].effect != effect)
+            continue;
+        *drawn = *drawn || is_needed(s, i);
+        *spans = *spans || s->layers[i].layer->spans;
+    }
+    *spans = *spans && may_span(s);
+}
+
 /* In the order of layers, before the plate or after it; those that show what is behind them come later. */
-static bool prepare(shot *s, VkCommandBuffer cmd, const tool_moment *at, bool after_plate, char *error,
+static bool prepare(shot *s, VkCommandBuffer cmd, const sample_moments *moments, bool after_plate, char *error,
                     size_t error_size)
 {
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const tool_effect *effect = effect_of(&s->layers[i]);
-        if (effect->prepare && !effect->shows_behind && effect->after_plate == after_plate && is_first(s, i) &&
-            !effect->prepare(s, s->states[s->layers[i].effect], cmd, at, error, error_size))
+        bool drawn, spans;
+        if (!effect->prepare || effect->shows_behind || effect->after_plate != after_plate || !is_first(s, i))
+            continue;
+        find_uses(s, s->layers[i].effect, moments, &drawn, &spans);
+        if (drawn && !effect->prepare(s, s->states[s->layers[i].effect], cmd, spans ? &moments->span : &moments->own,
+                                      error, error_size))
             return false;
     }
     return true;
@@ -159,13 +196,14 @@ typedef struct sample_cameras {
     double focus_inv_m; /* 1 / view depth that is sharp */
 } sample_cameras;
 
-static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, const sample_cameras *cameras,
+static bool record_picture(shot *s, VkCommandBuffer cmd, const sample_moments *moments, const sample_cameras *cameras,
                            char *error, size_t error_size)
 {
+    const tool_moment *at = &moments->own;
     shot_begin_lens(s);
-    if (!prepare(s, cmd, at, false, error, error_size) ||
+    if (!prepare(s, cmd, moments, false, error, error_size) ||
         !record_plate(s, cmd, at->camera_s, &cameras->now, &cameras->frame_ago, error, error_size) ||
-        !prepare(s, cmd, at, true, error, error_size) || !draw_layers(s, cmd, at, error, error_size) ||
+        !prepare(s, cmd, moments, true, error, error_size) || !draw_layers(s, cmd, at, error, error_size) ||
         !shot_record_lens(s, cmd, at, error, error_size))
         return false;
     if (!s->moving_target)
@@ -224,13 +262,13 @@ static void set_lens(const shot *s, double focus_inv_m, virga_view *view)
     view->focus_m = focus_inv_m > 1e-6 ? (float)(1 / focus_inv_m) : 0;
 }
 
-static virga_view look_through(shot *s, double part_s, const sample_cameras *cameras)
+static virga_view look_through(shot *s, double part_s, uint32_t sub_frames, const sample_cameras *cameras)
 {
     virga_view view = virga_default_view();
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&cameras->now, &cameras->open, part_s, &view);
-    view.sub_frames = s->options.samples;
+    view.sub_frames = sub_frames;
     memcpy(view.jitter_px, cameras->now.jitter_px, sizeof view.jitter_px);
     set_frame_ago(s, &cameras->frame_ago, &view);
     set_lens(s, cameras->focus_inv_m, &view);
@@ -250,32 +288,56 @@ static void lens_point(const shot *s, uint32_t sample, double lens_m[2])
     lens_m[1] *= -radius_m; /* it was down */
 }
 
+/* One of `count` equal parts of the shutter's time; the last closes at the frame's time. */
+typedef struct shutter_part {
+    double time_s; /* of the frame */
+    uint32_t index, count;
+    float jitter_px[2];
+    double lens_m[2];
+} shutter_part;
+
+/* The views of a moment, and what they are made of. */
+typedef struct sample_views {
+    virga_view steady, jittered;
+    sample_cameras cameras; /* of the jittered one */
+} sample_views;
+
+static tool_moment make_moment(shot *s, const shutter_part *part, sample_views *views)
+{
+    const host_camera_path eye = shot_eye(s);
+    const double part_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps / part->count;
+    const double late_s = part_s * (part->count - 1 - part->index), close_s = part->time_s - late_s;
+    const double shot_start = host_camera_shot_start(&eye, part->time_s), camera_s = fmax(close_s, shot_start);
+    sample_cameras steady = {.focus_inv_m = shot_focus_inv_m(s, camera_s)};
+    views->cameras = steady;
+    place_cameras(s, close_s, part_s, shot_start, NULL, part->lens_m, &steady);
+    place_cameras(s, close_s, part_s, shot_start, part->jitter_px, part->lens_m, &views->cameras);
+    views->steady = look_through(s, part_s, part->count, &steady);
+    views->jittered = look_through(s, part_s, part->count, &views->cameras);
+    return (tool_moment){.jittered = &views->jittered,
+                         .steady = &views->steady,
+                         .camera_s = camera_s,
+                         .late_s = late_s,
+                         .focus_inv_m = steady.focus_inv_m};
+}
+
 /* The shutter closes at the frame's time. */
 bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size)
 {
-    const host_camera_path eye = shot_eye(s);
-    const double shutter_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps;
-    const double part_s = shutter_s / s->options.samples;
-    const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
-    const double shot_start = host_camera_shot_start(&eye, time_s);
-    const double camera_s = fmax(close_s, shot_start);
-    float jitter[2];
-    double lens_m[2];
-    sample_cameras steady = {.focus_inv_m = shot_focus_inv_m(s, camera_s)}, cameras = steady;
-    host_camera_jitter(host_camera_jitter_index(sample, shading_share(s)), s->options.samples, jitter);
-    lens_point(s, sample, lens_m);
-    place_cameras(s, close_s, part_s, shot_start, NULL, lens_m, &steady);
-    place_cameras(s, close_s, part_s, shot_start, jitter, lens_m, &cameras);
-    cameras.now.sample = sample;
-    share_shading(s, sample, &cameras.now);
-    const virga_view steady_view = look_through(s, part_s, &steady);
-    const virga_view jittered_view = look_through(s, part_s, &cameras);
-    const tool_moment at = {.jittered = &jittered_view,
-                            .steady = &steady_view,
-                            .camera_s = camera_s,
-                            .late_s = time_s - close_s,
-                            .focus_inv_m = cameras.focus_inv_m};
-    return record_picture(s, cmd, &at, &cameras, error, error_size);
+    const uint32_t share = host_accumulator_share(s->options.samples);
+    shutter_part part = {.time_s = time_s, .index = sample, .count = s->options.samples};
+    sample_views own, span;
+    sample_moments moments;
+    host_camera_jitter(host_camera_jitter_index(sample, shading_share(s)), s->options.samples, part.jitter_px);
+    lens_point(s, sample, part.lens_m);
+    moments.own = make_moment(s, &part, &own);
+    own.cameras.now.sample = sample;
+    share_shading(s, sample, &own.cameras.now);
+    moments.has_mirrors = !own.cameras.now.follows;
+    part.index /= share;
+    part.count /= share;
+    moments.span = make_moment(s, &part, &span);
+    return record_picture(s, cmd, &moments, &own.cameras, error, error_size);
 }
 
 /* What is not drawn is not added up: colors, and the layer that a target has from the start. */
