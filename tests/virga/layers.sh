@@ -57,5 +57,26 @@ same whole depth Z
 VIRGA_VALIDATE=0 draw road whole_4 --samples 4 --layers beauty,depth
 VIRGA_VALIDATE=0 draw road depth_4 --samples 4 --layers depth
 same whole_4 depth_4 Z
+
+# Rain is drawn once for four sub-frames of 16, over the shutter of all. With the velocity of water it is drawn in each:
+# blurred by a few pixels both are the same picture.
+for kind in spans each; do
+    option=
+    [ $kind = spans ] || option="--water-velocity 100"
+    # shellcheck disable=SC2086
+    VIRGA_VALIDATE=0 draw road $kind --samples 16 --frames 2 --size 192x108 $option --layers beauty,rain,velocity \
+        --set rain.haze=0
+    oiiotool "$work/$kind/frame.0002.exr" --ch rain.A -d float --blur 9x9 -o "$work/$kind.exr" >"$work/log" 2>&1 ||
+        { cat "$work/log"; fail "rain.A of $kind"; }
+done
+python3 - "$(oiiotool --stats "$work/each.exr")" "$(oiiotool --diff "$work/spans.exr" "$work/each.exr")" <<'PYTHON' ||
+import re, sys
+average = float(re.search(r"Stats Avg: ([\d.e-]+)", sys.argv[1]).group(1))
+error = float(re.search(r"Mean error = ([\d.e-]+)", sys.argv[2]).group(1))
+print(f"rain covers {average:.5f}, and differs by {error:.6f} where it is drawn over the time of four sub-frames")
+sys.exit(not average > 1e-3 or error > 0.1 * average)
+PYTHON
+    fail "rain over the time of four sub-frames is not the rain of each"
+
 [ $failures = 0 ] && echo "what is asked for is drawn, as in a whole frame"
 [ $failures = 0 ]
