@@ -200,7 +200,7 @@ static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *t
 }
 
 static const tool_layer layers[] = {
-    {TOOL_COLOR_LAYER("splash", draw, 10, "splashes", "the splashes alone")},
+    {TOOL_COLOR_LAYER("splash", draw, 10, "splashes", "the splashes alone"), .shared_from = 4, .spans = true},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
