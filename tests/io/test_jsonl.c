@@ -53,6 +53,21 @@ static void nested_values_are_laid_out(void **state)
     assert_text(in_folder("s.jsonl"), "{\"frame\":3,\"ms\":{\"step\":1.25,\"gpu\":true},\"counts\":[1,[],null]}\n");
 }
 
+static void lines_of_another_file_are_added_as_they_are(void **state)
+{
+    static const char line[] = "{\"frame\":7,\"counts\":[1,[],null]}";
+    (void)state;
+    jsonl file;
+    start(&file, JSONL_TRUNCATE);
+    one_number_line(&file, 1);
+    jsonl_begin(&file); /* an unfinished line is discarded */
+    if (!jsonl_add_line(&file, line, strlen(line), error, sizeof error))
+        fail_msg("%s", error);
+    one_number_line(&file, 2);
+    jsonl_close(&file);
+    assert_text(in_folder("s.jsonl"), "{\"n\":1}\n{\"frame\":7,\"counts\":[1,[],null]}\n{\"n\":2}\n");
+}
+
 static void text_is_escaped(void **state)
 {
     (void)state;
@@ -310,6 +325,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST_IN_FOLDER(nested_values_are_laid_out),
+        TEST_IN_FOLDER(lines_of_another_file_are_added_as_they_are),
         TEST_IN_FOLDER(text_is_escaped),
         TEST_IN_FOLDER(broken_utf8_is_replaced),
         TEST_IN_FOLDER(numbers_read_back_the_same),

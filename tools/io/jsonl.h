@@ -54,7 +54,7 @@ void jsonl_end(jsonl *file); /* the innermost object or array */
 /* Closes all open brackets and writes the line. After a failure no part of the line is in the file. */
 bool jsonl_end_line(jsonl *file, char *error, size_t error_size);
 
-/* Writes a whole line that another jsonl made; `line` has no line end. */
+/* Writes a whole line that another jsonl made; `line` has no line end. An unfinished line is discarded. */
 bool jsonl_add_line(jsonl *file, const char *line, size_t length, char *error, size_t error_size);
 
 #endif
