@@ -1,6 +1,7 @@
 /* local.c - tasks as processes of this machine. */
 #include "farm/farm.h"
 #include "file.h"
+#include "frame/workers.h"
 #include "progress.h"
 
 #include <errno.h>
@@ -90,6 +91,7 @@ int farm_run_local(const farm_plan *plan, uint32_t jobs, char *error, size_t err
     progress bar;
     uint32_t shown = 0;
     const struct timespec pause = {0, 200000000};
+    workers_share_processors(jobs);
     progress_begin(&bar, "frame", plan->last - plan->first + 1);
     while (is_running(&run)) {
         if (!start_tasks(&run, jobs)) {

@@ -2,6 +2,7 @@
 #include "frame/workers.h"
 
 #include "file.h"
+#include "frame/machine.h"
 #include "host.h"
 
 #include <errno.h>
@@ -60,26 +61,20 @@ static worker_frame *frame_of(const workers *w, uint32_t frame)
 
 /* ---- how many */
 
-/* What the system can give without swapping; 0: it does not say. */
-static double free_bytes(void)
-{
-    char line[256];
-    double kilobytes = 0;
-    FILE *file = fopen("/proc/meminfo", "r");
-    while (file && fgets(line, sizeof line, file))
-        if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1)
-            break;
-    if (file)
-        fclose(file);
-    return 1024 * kilobytes;
-}
-
 uint32_t workers_default(uint64_t pixels)
 {
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const double fit = free_bytes() / (SCENE_BYTES + BYTES_PER_PIXEL * (double)pixels);
-    const double count = fit < (double)processors ? fit : (double)processors;
+    const double processors = machine_processors("");
+    const double fit = (double)machine_free_bytes("") / (SCENE_BYTES + BYTES_PER_PIXEL * (double)pixels);
+    const double count = fit < processors ? fit : processors;
     return count < 1 ? 1 : count > MAX_DEFAULT ? MAX_DEFAULT : (uint32_t)count;
+}
+
+void workers_share_processors(uint32_t count)
+{
+    char text[32];
+    const uint32_t share = machine_processors("") / count;
+    snprintf(text, sizeof text, "%u", share > 1 ? share : 0);
+    setenv("LP_NUM_THREADS", text, false);
 }
 
 /* ---- processes */
@@ -239,15 +234,6 @@ void workers_begin(workers *w, char *const *argv)
 
 /* ---- in a worker */
 
-/* Of one worker: the processors are shared out. Software Vulkan with no thread of its own is quickest with one. */
-static void set_threads(uint32_t count)
-{
-    char text[32];
-    const long share = sysconf(_SC_NPROCESSORS_ONLN) / (long)count;
-    snprintf(text, sizeof text, "%ld", share > 1 ? share : 0);
-    setenv("LP_NUM_THREADS", text, false);
-}
-
 int workers_join(workers *w)
 {
     int number;
@@ -267,7 +253,7 @@ int workers_join(workers *w)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != w->board->parent)
         exit(1);
-    set_threads(w->count);
+    workers_share_processors(w->count);
     return number;
 }
 

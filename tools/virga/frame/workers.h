@@ -35,6 +35,10 @@ typedef struct workers {
  * pixels: 1 to 8. */
 uint32_t workers_default(uint64_t pixels);
 
+/* Shares the processors out among `count` processes that begin after it, where the user has not: software Vulkan reads
+ * LP_NUM_THREADS. With one processor it gets no thread of its own, which is quickest. */
+void workers_share_processors(uint32_t count);
+
 /* ---- in the parent, before any device is opened there */
 
 /* Whether the device of that name (NULL: the best) is software Vulkan. False also where there is none. Asks this
