@@ -7,7 +7,7 @@ virga=$1
 jobs=${2:-1}
 device=${VIRGA_TEST_DEVICE:-cpu}
 here=$(cd "$(dirname "$0")" && pwd)
-frames=$((16 * jobs * jobs)) # so many that some are left at an interruption
+frames=$((24 * jobs - 8)) # so many that some are left at an interruption
 work=$(mktemp -d)
 running=""
 trap '[ -z "$running" ] || kill -9 "$running" 2>/dev/null; umount "$work/disk" 2>/dev/null; rm -rf "$work"' EXIT
