@@ -7,7 +7,7 @@ virga=$1
 jobs=${2:-1}
 device=${VIRGA_TEST_DEVICE:-cpu}
 here=$(cd "$(dirname "$0")" && pwd)
-frames=$((24 * jobs - 8)) # so many that some are left at an interruption
+frames=$((jobs > 1 ? 64 : 16)) # so many that some are left at an interruption
 work=$(mktemp -d)
 running=""
 trap '[ -z "$running" ] || kill -9 "$running" 2>/dev/null; umount "$work/disk" 2>/dev/null; rm -rf "$work"' EXIT
@@ -61,13 +61,15 @@ start() {
     running=$!
 }
 
-# until_there COMMAND...: polls, for half a minute.
+# until_there COMMAND...: polls, for half a minute. A frame takes 5 ms, and `sleep` as long to begin: the shell itself
+# waits, for input that never comes.
+exec 8<> <(:)
 until_there() {
     local i
-    for i in $(seq 3000); do
+    for ((i = 0; i < 10000; i++)); do
         "$@" && return
         kill -0 "$running" 2>/dev/null || break
-        sleep 0.01
+        read -rt 0.003 -u 8
     done
     "$@" || fail "never: $*"
 }
